@@ -34,7 +34,9 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -10;       // nice value
+constexpr int kUrgent = -10;       // nice values: of those on which braking waits,
+constexpr int kPrompt = -5;        // and driving;
+constexpr int kStepBack = 5;       // of the others, where nobody may be put in front
 constexpr double kPatience = 5.0;  // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
@@ -61,6 +63,12 @@ bool may_raise_priority() {
   if (setpriority(PRIO_PROCESS, 0, before + kUrgent) != 0) return false;
   setpriority(PRIO_PROCESS, 0, before);
   return true;
+}
+
+int niceness_of(const modules::ModuleEntry& entry, bool may_raise) {
+  if (!entry.is_urgent && !entry.is_prompt) return may_raise ? 0 : kStepBack;
+  if (!may_raise) return 0;
+  return entry.is_urgent ? kUrgent : kPrompt;
 }
 
 /// Mode and speed limit, as the museum's staff would set them in the morning.
@@ -132,12 +140,11 @@ Result<std::vector<ChildSpec>> children_of(const RobotRun& options, const std::s
     auto words = command(kSimulatorProcess);
     const auto more = options.simulator.arguments();
     words.insert(words.end(), more.begin(), more.end());
-    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
+    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : kStepBack, false});
   }
   for (const auto& entry : modules::all_modules()) {
     if (!modules::runs(entry, *work)) continue;
-    const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
-    children.push_back({entry.name, command(entry.name), niceness, true});
+    children.push_back({entry.name, command(entry.name), niceness_of(entry, may_raise), true});
   }
   return children;
 }

@@ -13,9 +13,9 @@ struct ProcessParams {
   /// realtime: avoid, robot and hazards run before all others, where they may (RLIMIT_RTPRIO or CAP_SYS_NICE), else
   /// with a nice value of -10, else as any process; nice; normal
   std::string urgent = "realtime";
-  int priority = 10;       ///< 1..99 of the class SCHED_RR: above what else computes, below the kernel's own threads
-  double most_ms = 500.0;  ///< [ms] > 0, of computing on end, then such a module is ended and begins anew: a runaway
-                           ///< must not hold the computer
+  int priority = 10;        ///< 1..99 of the class SCHED_RR: above what else computes, below the kernel's own threads
+  double most_ms = 1000.0;  ///< [ms] > 0, of computing on end, then such a module is ended and begins anew: a runaway
+                            ///< must not hold the computer
   template <class V>
   void visit(V& v) {
     v("urgent", urgent);
