@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from evaluation import floor_plans
 from evaluation.programs import laboratory, program_for
 from evaluation.tables import Verdict, print_table
 
@@ -22,6 +23,9 @@ LIMIT_HOURS = 1.0
 # The robot begins where its lasers see walls: in the middle of that hall, 20 m wide, they see none, and what is marked in the frame of the first
 # pose would lie as wrong as odometry turns until it sees some.
 STARTS = {"smithsonian": ["--start", "12,15,0"]}
+
+
+PARTS = ["plans"]
 
 
 class Explorations:
@@ -45,9 +49,13 @@ class Explorations:
 
     def run(self, kind, people, seed, *more):
         name = f"{kind}-{people}-{seed}{'-crippled' if more else ''}"
-        folder, museum = self.pictures / name, self.museum(kind, seed)
+        return self.run_in(self.museum(kind, seed), name, people, seed, *STARTS.get(kind, []), *more, may_fail=bool(more))
+
+    def run_in(self, museum, name, people, seed, *more, may_fail=False):
+        """What the robot made of a museum; None when it may fail and did."""
+        folder = self.pictures / name
         is_done = self.call("explore", "--museum", museum, "--seed", seed, "--people", people, "--hours", LIMIT_HOURS, "--out", folder, "--quiet",
-                            *STARTS.get(kind, []), *more, may_fail=bool(more))
+                            *more, may_fail=may_fail)
         if not is_done:
             return None
         self.call("score-map", "--map", folder / "map.yaml", "--world", museum / "simulation.yaml", "--report", folder / "score.json",
@@ -87,6 +95,8 @@ def judge(verdict, kind, people, runs):
 
 def protocol(program, root, options):
     explorations = Explorations(program, root, options.pictures, options.jobs)
+    if options.part == "plans":
+        return floor_plans.protocol(explorations, root, options)
     verdict, rows = Verdict(), []
     count = options.seeds or (1 if options.slice else 5)
     seeds = range(options.first_seed, options.first_seed + count)

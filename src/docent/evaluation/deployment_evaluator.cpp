@@ -39,6 +39,7 @@ void DeploymentEvaluator::add(const transport::TopicInfo& topic, Time time,
     return *static_cast<const T*>(message.get());
   };
   latency_.add(topic, time, message);
+  ages_.add(topic, time, message);
   if (is(topics::kTrueState)) {
     add_state(std::static_pointer_cast<const docent_msgs::TrueState>(message));
   } else if (is(topics::kBelief)) {
@@ -203,7 +204,11 @@ void DeploymentEvaluator::count_battery(double level) {
 std::optional<DeploymentReport::Latency> DeploymentEvaluator::latency() const {
   const Quantiles& all = latency_.latencies();
   if (!(all.at(0.5) > 0.0)) return std::nullopt;
-  return DeploymentReport::Latency{all.count(), all.at(0.5), all.at(0.99), latency_.unanswered()};
+  const auto of = [](const Quantiles& ages) {
+    return DeploymentReport::Age{ages.count(), ages.at(0.5), ages.at(0.99)};
+  };
+  return DeploymentReport::Latency{all.count(),           all.at(0.5),         all.at(0.99),
+                                   latency_.unanswered(), of(ages_.beliefs()), of(ages_.hazards())};
 }
 
 DeploymentReport DeploymentEvaluator::report() const {

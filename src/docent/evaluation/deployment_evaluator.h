@@ -8,6 +8,7 @@
 #include "docent/evaluation/command_latency.h"
 #include "docent/evaluation/deployment_report.h"
 #include "docent/evaluation/localization_score.h"
+#include "docent/evaluation/message_ages.h"
 #include "docent/evaluation/people_score.h"
 #include "docent/evaluation/request_tally.h"
 #include "docent/evaluation/truth_history.h"
@@ -45,6 +46,7 @@ class DeploymentEvaluator {
 
   DeploymentReport report_;
   CommandLatency latency_;
+  MessageAges ages_;
   TruthHistory truth_;
   LocalizationScore localization_;
   PeopleScore people_;

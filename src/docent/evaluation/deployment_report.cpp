@@ -82,11 +82,17 @@ Json localization_of(const DeploymentReport::Localization& l) {
           {"blocked_beam_fraction", rounded(l.blocked_beam_fraction.mean())}};
 }
 
-Json latency_of(const DeploymentReport::Latency& latency) {
-  return {{"p50_ms", rounded(1e3 * latency.p50_s)},
-          {"p99_ms", rounded(1e3 * latency.p99_s)},
-          {"sweeps", latency.sweeps},
-          {"unanswered", latency.unanswered}};
+Json age_of(const DeploymentReport::Age& age) {
+  return {{"p50_ms", rounded(1e3 * age.p50_s)}, {"p99_ms", rounded(1e3 * age.p99_s)}, {"messages", age.messages}};
+}
+
+void add_latency(const DeploymentReport::Latency& latency, Json& json) {
+  json["scan_to_command"] = {{"p50_ms", rounded(1e3 * latency.p50_s)},
+                             {"p99_ms", rounded(1e3 * latency.p99_s)},
+                             {"sweeps", latency.sweeps},
+                             {"unanswered", latency.unanswered}};
+  json["belief_age"] = age_of(latency.belief);
+  json["hazards_age"] = age_of(latency.hazards);
 }
 
 Json trips_of(const DeploymentReport& report) {
@@ -160,7 +166,7 @@ std::string to_json(const DeploymentReport& r, const std::optional<RunCost>& cos
                      {"global_detours", r.blocked.global_detours}};
   json["battery"] = {{"charges", r.battery.charges}, {"depleted", r.battery.depleted}};
   json["module_restarts"] = r.module_restarts;
-  if (r.latency) json["scan_to_command"] = latency_of(*r.latency);
+  if (r.latency) add_latency(*r.latency, json);
   json["trips"] = trips_of(r);
   if (cost) {
     Json p99 = Json::object();

@@ -114,11 +114,17 @@ struct DeploymentReport {
     int charges = 0, depleted = 0;
   } battery;
   int module_restarts = 0;
+  /// Of a kind of message when it is told (MessageAges).
+  struct Age {
+    std::uint64_t messages = 0;
+    double p50_s = 0.0, p99_s = 0.0;
+  };
   /// From what the lasers see to the command that knows it (CommandLatency); where time is that of the wall.
   struct Latency {
     std::uint64_t sweeps = 0;
     double p50_s = 0.0, p99_s = 0.0;
     std::uint64_t unanswered = 0;
+    Age belief, hazards;
   };
   std::optional<Latency> latency;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "docent/grid/ground.h"
+
 namespace docent {
 
 Result<void> Clearance::validate() const {
@@ -29,12 +31,9 @@ std::vector<double> spare_room(const OccupancyGrid& map, std::span<const Polygon
       const Point2 centre = frame.centre({column, row});
       const CellIndex fine = map.frame.cell_at(centre);
       if (!map.frame.holds(fine)) continue;
-      if (!area.empty() && !contains(area, centre)) continue;
-      double room = static_cast<double>(to_walls[map.frame.index(fine)]) - robot_radius - clearance.walls;
-      if (!area.empty()) room = std::min(room, outline_distance(area, centre) - clearance.border);
-      for (const Polygon& hazard : hazards)
-        room = std::min(room, distance(hazard, centre) - robot_radius - clearance.hazards);
-      spare[frame.index({column, row})] = room;
+      const double room = static_cast<double>(to_walls[map.frame.index(fine)]) - robot_radius - clearance.walls;
+      spare[frame.index({column, row})] =
+          std::min(room, room_on_ground(area, hazards, centre, robot_radius, clearance));
     }
   }
   return spare;

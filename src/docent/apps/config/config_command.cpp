@@ -9,6 +9,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/base/suggestion.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/robot/parameter_list.h"
 
@@ -25,6 +26,9 @@ Result<std::vector<robot::ParameterRows>> all_sections(const robot::RobotConfig&
   auto body = robot::list_parameters<robot::RobotBody>(config, kBody);
   if (!body) return tl::unexpected<Error>(body.error());
   all.push_back(std::move(*body));
+  auto processes = robot::list_parameters<modules::ProcessParams>(config, modules::kProcesses);
+  if (!processes) return tl::unexpected<Error>(processes.error());
+  all.push_back(std::move(*processes));
   for (const modules::ModuleEntry& entry : modules::all_modules()) {
     auto rows = entry.parameters(config);
     if (!rows) return tl::unexpected<Error>(rows.error());

@@ -13,6 +13,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/base/shipped_files.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/museum/blank_museum.h"
 #include "docent/transport/dds_bus.h"
@@ -89,6 +90,7 @@ Result<robot::RobotConfig> Deployment::load_config(const std::vector<std::string
     if (!set) return tl::unexpected<Error>(set.error());
   }
   std::vector<std::string> sections = further;
+  sections.emplace_back(modules::kProcesses);
   for (const modules::ModuleEntry& entry : modules::all_modules()) sections.emplace_back(entry.name);
   if (std::find(further.begin(), further.end(), kCrippling) == further.end()) {
     if (auto whole = config.refuse_section(kCrippling, kOnlyInTheLaboratory); !whole)

@@ -27,7 +27,8 @@ Result<void> set_log_defaults(robot::RobotConfig& config, const OccupancyGrid& m
                "verdict={enough_share: 0.8, enough_mass: 0.8, most_contradiction: 0.3, travelled: 1, turned: 100000}"},
            // Few people walk through a log, and much is not drawn: so many readings it takes to say that a part of such
            // a map is wrong, and it says less than where walls are exact.
-           "tracks={nats: 2, too_short: 1, startled_given: 8, part_beams: " +
+           // What is usual in it nobody has measured: it is searched as often as it may be wrong.
+           "tracks={nats: 2, too_short: 1, startled_given: 8, search_way_calm: 6, doubt_nats: 1000, part_beams: " +
                std::to_string(kReadingsOfPart * std::pow(map.frame.resolution, 2)) + "}",
            // How far such a map's walls are off nobody has measured.
            std::string{"exact_walls=false"},

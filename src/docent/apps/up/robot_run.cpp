@@ -22,6 +22,7 @@
 #include "docent/apps/up/status_display.h"
 #include "docent/apps/up/supervisor.h"
 #include "docent/base/shipped_files.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/editing/museum_workshop.h"
@@ -33,7 +34,9 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -5;        // nice value
+constexpr int kUrgent = -10;       // nice values: of those on which braking waits,
+constexpr int kPrompt = -5;        // and driving;
+constexpr int kStepBack = 5;       // of the others, where nobody may be put in front
 constexpr double kPatience = 5.0;  // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
@@ -62,6 +65,12 @@ bool may_raise_priority() {
   return true;
 }
 
+int niceness_of(const modules::ModuleEntry& entry, bool may_raise) {
+  if (!entry.is_urgent && !entry.is_prompt) return may_raise ? 0 : kStepBack;
+  if (!may_raise) return 0;
+  return entry.is_urgent ? kUrgent : kPrompt;
+}
+
 /// Mode and speed limit, as the museum's staff would set them in the morning.
 Result<docent_msgs::Limits> limits_of(const RobotRun& options, const museum::Museum& museum,
                                       const robot::RobotConfig& config) {
@@ -83,6 +92,7 @@ docent_msgs::Limits check(const RobotRun& options) {
   const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);
+  sections.emplace_back(modules::kProcesses);
   value_or_fail(config.check_sections(sections));
   if (options.simulate) value_or_fail(check_simulator(options.deployment, options.simulator));
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
@@ -130,12 +140,11 @@ Result<std::vector<ChildSpec>> children_of(const RobotRun& options, const std::s
     auto words = command(kSimulatorProcess);
     const auto more = options.simulator.arguments();
     words.insert(words.end(), more.begin(), more.end());
-    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : -kUrgent, false});
+    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : kStepBack, false});
   }
   for (const auto& entry : modules::all_modules()) {
     if (!modules::runs(entry, *work)) continue;
-    const int niceness = entry.is_urgent ? (may_raise ? kUrgent : 0) : (may_raise ? 0 : -kUrgent);
-    children.push_back({entry.name, command(entry.name), niceness, true});
+    children.push_back({entry.name, command(entry.name), niceness_of(entry, may_raise), true});
   }
   return children;
 }

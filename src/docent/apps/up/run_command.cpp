@@ -14,6 +14,7 @@
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/supervisor.h"
 #include "docent/modules/host/module_host.h"
+#include "docent/modules/host/process_class.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent::apps::up_command {
@@ -51,7 +52,11 @@ void run(const RunOptions& options) {
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
   if (entry->keeps_cache) prepare_cache(deployment.cache);
 
+  const auto classes =
+      value_or_fail(config.section<modules::ProcessParams>(modules::kProcesses), kExitBadConfiguration);
   block_end_signals();
+  // Before the bus: its threads take the class over.
+  const std::string handicap = entry->is_urgent ? modules::enter_process_class(classes) : std::string{};
   auto dds_bus = join(deployment, deployment.domain, options.module);
   transport::DdsBus& bus = *dds_bus;
   const auto truth =
@@ -63,6 +68,7 @@ void run(const RunOptions& options) {
   host_options.seed = deployment.seed;
   host_options.pid = getpid();
   host_options.truth = truth.get();
+  host_options.handicap = handicap;
   const auto host = value_or_fail(modules::ModuleHost::create(*entry, std::move(dds_bus), museum, config, host_options),
                                   kExitBadConfiguration);
   const std::jthread truth_thread{[&truth](const std::stop_token& stop) {

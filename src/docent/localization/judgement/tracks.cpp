@@ -27,7 +27,9 @@ Result<void> TracksParams::validate() const {
   if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && startled_given >= 0.0 &&
         most_heard >= 0.0))
     return fail("tracks.hopeless must be > 0, given, carried_off, startled, startled_given and most_heard >= 0");
-  if (!(search_way > 0.0 && search_way_kept > 0.0)) return fail("tracks.search_way and search_way_kept must be > 0");
+  if (!(search_way > 0.0 && search_way_kept > 0.0 && search_way_calm > 0.0))
+    return fail("tracks.search_way, search_way_kept and search_way_calm must be > 0");
+  if (!(usual_nats > 0.0 && doubt_nats > 0.0)) return fail("tracks.usual_nats and doubt_nats must be > 0");
   return {};
 }
 
@@ -36,7 +38,7 @@ void Tracks::forget() {
   tracks_.clear();
   given_ = 0.0;
   startled_ = params_.startled;
-  searched_ = std::numeric_limits<double>::max();
+  search_watch_.begin();
 }
 
 void Tracks::start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot) {
@@ -107,7 +109,7 @@ void Tracks::add_view(const sensor_models::RangeSweep& sweep, const Pose2& odom_
   const bool is_first = views_.empty();
   View view{thinned(sweep, params_.beams), odom_from_robot, is_startled};
   if (static_cast<int>(views_.size()) >= params_.most_views) drop_first_view();
-  if (!is_first) searched_ += distance(views_.back().odom_from_robot.position(), odom_from_robot.position());
+  const double before = least_nats();
   const View from = is_first ? View{{}, odom_from_start_, false} : views_.back();
   const Pose2 step = inverse(from.odom_from_robot) * odom_from_robot;
   views_.push_back(std::move(view));
@@ -121,6 +123,7 @@ void Tracks::add_view(const sensor_models::RangeSweep& sweep, const Pose2& odom_
     track.costs.push_back(costs_at(views_.back(), pose));
     track.sums.add(track.costs.back());
   }
+  search_watch_.see(is_first ? 0.0 : norm(step.position()), tracks_.empty() ? 0.0 : least_nats() - before);
   prune();
 }
 
@@ -202,14 +205,13 @@ void Tracks::prune() {
     for (Track& track : tracks_) track.past -= least_past;
 }
 
-bool Tracks::is_search_due(bool keeps_its_place) const {
-  return searched_ >= (keeps_its_place ? params_.search_way_kept : params_.search_way) ||
-         (!views_.empty() && views_.back().is_startled);
+bool Tracks::is_search_due(bool keeps_its_place, bool in_doubt) const {
+  return search_watch_.is_due(keeps_its_place, in_doubt) || (!views_.empty() && views_.back().is_startled);
 }
 
 void Tracks::search(const PlaceSearch& places) {
   if (views_.empty()) return;
-  searched_ = 0.0;
+  search_watch_.searched();
   PlaceSearch::Wanted wanted;
   wanted.max_range = max_range_;
   std::vector<Pose2> poses;

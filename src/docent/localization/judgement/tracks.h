@@ -11,6 +11,7 @@
 #include "docent/localization/belief/observation_model.h"
 #include "docent/localization/belief/place_search.h"
 #include "docent/localization/judgement/part_sums.h"
+#include "docent/localization/judgement/search_watch.h"
 #include "docent/motion_models/odometry_model.h"
 #include "docent/sensor_models/range_sweep.h"
 #include "docent/sensor_models/ray_caster.h"
@@ -19,25 +20,28 @@ namespace docent::localization {
 
 /// How places are told apart by the whole way since they parted.
 struct TracksParams {
-  double spacing = 0.4;          ///< [m] between views, or
-  double turned = 30.0;          ///< [deg] turned
-  int most_views = 80;           ///< views that are kept: the way that evidence reaches back
-  int most_tracks = 32;          ///< ways that are followed
-  int beams = 90;                ///< of a view
-  double nats = 3.0;             ///< [nat] that a part of the building says at most; less where walls are off
-  double part = 0.5;             ///< [m] side of a part of the floor: what stands there and is not in the map
-  double wall_part = 0.5;        ///< [m] of a wall
-  double first_short = 4.5;      ///< [nat] that readings say at the full cost which end where there is nothing; and
-  double too_short = 0.15;       ///< 0..1 of it for more of them: people end readings anywhere
-  double part_beams = 10.0;      ///< readings that count half of what many of one part do
-  double hopeless = 15.0;        ///< [nat] behind the best: a way that is followed no longer
-  double given = 6.0;            ///< [nat] that a start which somebody gave is likelier than other places
-  double carried_off = 9.0;      ///< [nat] that it costs to say: somebody has carried the robot; and
-  double startled = 2.0;         ///< [nat] where what it saw changed at once
-  double startled_given = 2.0;   ///< [nat] likewise, where somebody has told the start
-  double most_heard = 12.0;      ///< [nat] that other sensors say at most
-  double search_way = 1.5;       ///< [m] after which the whole map is searched anew, while the robot is unsure; and
-  double search_way_kept = 6.0;  ///< [m] while it is sure
+  double spacing = 0.4;           ///< [m] between views, or
+  double turned = 30.0;           ///< [deg] turned
+  int most_views = 80;            ///< views that are kept: the way that evidence reaches back
+  int most_tracks = 32;           ///< ways that are followed
+  int beams = 90;                 ///< of a view
+  double nats = 3.0;              ///< [nat] that a part of the building says at most; less where walls are off
+  double part = 0.5;              ///< [m] side of a part of the floor: what stands there and is not in the map
+  double wall_part = 0.5;         ///< [m] of a wall
+  double first_short = 4.5;       ///< [nat] that readings say at the full cost which end where there is nothing; and
+  double too_short = 0.15;        ///< 0..1 of it for more of them: people end readings anywhere
+  double part_beams = 10.0;       ///< readings that count half of what many of one part do
+  double hopeless = 15.0;         ///< [nat] behind the best: a way that is followed no longer
+  double given = 6.0;             ///< [nat] that a start which somebody gave is likelier than other places
+  double carried_off = 9.0;       ///< [nat] that it costs to say: somebody has carried the robot; and
+  double startled = 2.0;          ///< [nat] where what it saw changed at once
+  double startled_given = 2.0;    ///< [nat] likewise, where somebody has told the start
+  double most_heard = 12.0;       ///< [nat] that other sensors say at most
+  double search_way = 1.5;        ///< [m] after which the whole map is searched anew, while the robot is unsure;
+  double search_way_kept = 6.0;   ///< [m] while it is sure, but in doubt or not for long;
+  double search_way_calm = 48.0;  ///< [m] and at most, of a robot that has long been sure, and
+  double usual_nats = 0.8;        ///< [nat] against its place in the mean of the views, at most; by so much
+  double doubt_nats = 3.0;        ///< [nat] more in sum it searches at once: see SearchWatch
   template <class V>
   void visit(V& v) {
     v("spacing", spacing);
@@ -59,8 +63,14 @@ struct TracksParams {
     v("most_heard", most_heard);
     v("search_way", search_way);
     v("search_way_kept", search_way_kept);
+    v("search_way_calm", search_way_calm);
+    v("usual_nats", usual_nats);
+    v("doubt_nats", doubt_nats);
   }
   [[nodiscard]] Result<void> validate() const;
+  [[nodiscard]] SearchWatchParams search() const {
+    return {search_way, search_way_kept, search_way_calm, usual_nats, doubt_nats};
+  }
 };
 
 /// The ways that the robot may have come, one for every place that was ever likely: each is followed by odometry and
@@ -71,7 +81,12 @@ class Tracks {
  public:
   Tracks(const TracksParams& params, const motion_models::OdometryModelParams& motion, double max_range,
          const sensor_models::RayCaster& caster)
-      : params_{params}, motion_{motion}, max_range_{max_range}, caster_{&caster}, startled_{params.startled} {}
+      : params_{params},
+        motion_{motion},
+        max_range_{max_range},
+        caster_{&caster},
+        search_watch_{params.search()},
+        startled_{params.startled} {}
 
   void forget();
   /// Somebody has told where the robot is.
@@ -86,8 +101,8 @@ class Tracks {
   /// Follows a track back from each of these poses of the last view, but from those that are known. O(poses * views *
   /// beams).
   void take_in(std::span<const Pose2> map_from_robot);
-  /// Whether the whole map is to be searched at this view.
-  [[nodiscard]] bool is_search_due(bool keeps_its_place) const;
+  /// Whether the whole map is to be searched at this view. `in_doubt`: other signs speak against the robot's place.
+  [[nodiscard]] bool is_search_due(bool keeps_its_place, bool in_doubt) const;
   void search(const PlaceSearch& places);
   /// What other sensors say of the tracks now, for `weight` of an update. O(tracks).
   void hear(const ObservationModels& others, double weight, const Pose2& odom_from_robot);
@@ -131,9 +146,9 @@ class Tracks {
   const sensor_models::RayCaster* caster_;
   std::deque<View> views_;
   std::vector<Track> tracks_;
+  SearchWatch search_watch_;
   double startled_;        ///< [nat] that it costs to have been carried off where what it saw changed
   double given_ = 0.0;     ///< [nat] against tracks that nobody has told of
-  double searched_ = 1e9;  ///< [m] driven since the last search
   Pose2 odom_from_start_;  ///< as long as there is no view
 };
 

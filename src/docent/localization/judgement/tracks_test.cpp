@@ -147,7 +147,7 @@ TEST(Tracks, ARobotThatWasCarriedOffIsFoundWhereItIsNow) {
   EXPECT_FALSE(drive.tracks_.is_due(drive.odom_ * Pose2{-0.2, 0.0, {}}, false));
   EXPECT_TRUE(drive.tracks_.is_due(drive.odom_, true));
   drive.look(true);
-  EXPECT_TRUE(drive.tracks_.is_search_due(true));
+  EXPECT_TRUE(drive.tracks_.is_search_due(true, false));
   drive.tracks_.search(drive.places_);
   for (int i = 0; i < 4; ++i) {
     drive.drive({0.4, 0.0, Angle::degrees(20.0)});

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSurpriseWaits = 0.15;   // [s] between updates for a surprise
 constexpr double kElsewhere = 1e-4;       // of the mass, when somebody has told where the robot is
+constexpr double kDoubtful = 0.1;         // P(lost) of a robot that looks for better places
 constexpr double kWorthFollowing = 2e-3;  // of the best mode's mass: a mode that becomes a track
 
 /// A track and a mode of the belief at the same place.
@@ -150,7 +151,8 @@ void Localizer::compare_tracks(const Update& update) {
     for (const BeliefMode& mode : summary_.modes)
       if (mode.mass >= kWorthFollowing * summary_.modes.front().mass) modes.push_back(mode.map_from_robot);
     tracks_.take_in(modes);
-    if (tracks_.is_search_due(verdict_.keeps_its_place())) tracks_.search(map_->places);
+    const bool in_doubt = verdict_.contradicted() || verdict_.p_lost() > kDoubtful;
+    if (tracks_.is_search_due(verdict_.keeps_its_place(), in_doubt)) tracks_.search(map_->places);
   }
   tracks_.hear(sensors_, update.weight, odom_from_robot_);
   const auto modes = belief_lacks();

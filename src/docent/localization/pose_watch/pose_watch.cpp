@@ -12,6 +12,7 @@ PoseWatch::PoseWatch(std::unique_ptr<Localizer> localizer, const std::vector<Pos
     : localizer_{std::move(localizer)},
       params_{params},
       sweeps_{base_from_laser},
+      rounds_{base_from_laser.size()},
       checkpoints_{std::move(checkpoints)} {
   if (const auto before = checkpoints_.restore(now))
     localizer_->start_at(before->modes, before->odom_from_robot, before->time);
@@ -22,8 +23,18 @@ void PoseWatch::move(Time stamp, const Pose2& raw_from_base) {
   if (checkpoints_.is_contradicted_by(odometry_.latest())) localizer_->start_unknown();
 }
 
+bool PoseWatch::is_look_due(Time now) const {
+  if (!rounds_.is_whole() || odometry_.empty()) return false;
+  return !awaits_odometry() || now - rounds_.whole_since() >= kOdometryPatience;
+}
+
+bool PoseWatch::awaits_odometry() const {
+  return rounds_.is_whole() && (odometry_.empty() || odometry_.latest_time() < sweeps_.newest());
+}
+
 std::optional<PoseWatch::Look> PoseWatch::look(Time now) {
   auto joined = sweeps_.join(odometry_);
+  if (joined || !sweeps_.has_new()) rounds_.close(now);
   if (!joined) return std::nullopt;
   Look look{{joined->stamp, joined->odom_from_base}, std::move(joined->sweep)};
   const Localizer::Step step = localizer_->observe(look.sweep, look.moment.odom_from_base, look.moment.stamp);

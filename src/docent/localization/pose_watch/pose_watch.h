@@ -8,6 +8,7 @@
 #include "docent/localization/localizer/localizer.h"
 #include "docent/localization/pose_watch/checkpoint_keeper.h"
 #include "docent/localization/pose_watch/odometry_trail.h"
+#include "docent/localization/pose_watch/scan_rounds.h"
 #include "docent/localization/pose_watch/sweep_joiner.h"
 
 namespace docent::localization {
@@ -23,6 +24,8 @@ struct PoseWatchParams {
 class PoseWatch {
  public:
   static constexpr Duration kBeliefEvery = std::chrono::milliseconds{500};  ///< also of a robot that stands
+  /// A look waits so long for odometry that is as young as the scans, then it makes do with what there is.
+  static constexpr Duration kOdometryPatience = std::chrono::milliseconds{40};
 
   /// Goes on from the checkpoint of a moment ago, if there is one.
   PoseWatch(std::unique_ptr<Localizer> localizer, const std::vector<Pose2>& base_from_laser,
@@ -30,9 +33,15 @@ class PoseWatch {
 
   /// Odometry, in its own frame.
   void move(Time stamp, const Pose2& raw_from_base);
-  void see(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
+  void see(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading, Time now) {
     sweeps_.keep(laser, stamp, reading);
+    rounds_.hear(laser, now);
   }
+  /// Whether to look now: a round of scans is whole, and odometry tells where the robot was then. To be asked when a
+  /// scan or odometry has come, and kOdometryPatience after a scan.
+  [[nodiscard]] bool is_look_due(Time now) const;
+  /// A round of scans is whole, but odometry is older than its newest one.
+  [[nodiscard]] bool awaits_odometry() const;
 
   /// A moment at which something may be told.
   struct Moment {
@@ -45,7 +54,7 @@ class PoseWatch {
     bool is_belief_due = false;       ///< it has changed, or odometry has jumped, or it is time: see `tell_belief`
     bool is_pose_due = false;         ///< the robot knows its place, and looked anew
   };
-  /// Some times a second: what came since the last look, or nothing. O(an update of the belief)
+  /// What came since the last look, or nothing. O(an update of the belief)
   [[nodiscard]] std::optional<Look> look(Time now);
   /// Somebody says where the robot stood at `stamp`; where nobody knows odometry of then, it stands there now. The
   /// belief is due. None: nothing was heard of odometry, so the robot cannot take it.
@@ -81,6 +90,7 @@ class PoseWatch {
   std::unique_ptr<Localizer> localizer_;
   PoseWatchParams params_;
   SweepJoiner sweeps_;
+  ScanRounds rounds_;
   OdometryTrail odometry_;
   CheckpointKeeper checkpoints_;
   Localizer::Step last_update_;

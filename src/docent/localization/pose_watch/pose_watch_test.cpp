@@ -46,7 +46,7 @@ class PoseWatch : public ::testing::Test {
     for (const auto& beam : testing::sweep_at(caster, truth, 10.0).beams)
       ranges.push_back(static_cast<float>(beam.range));
     if (stranger_at > 0.0F) std::fill(ranges.begin() + 175, ranges.begin() + 186, stranger_at);
-    watch->see(0, now, {ranges, Angle::degrees(-180.0), Angle::degrees(1.0).radians(), 0.02, 10.0});
+    watch->see(0, now, {ranges, Angle::degrees(-180.0), Angle::degrees(1.0).radians(), 0.02, 10.0}, now);
     return watch->look(now);
   }
   void find_itself() {
@@ -151,6 +151,26 @@ TEST_F(PoseWatch, ItIsWhereItIsToldToBe) {
   ASSERT_TRUE(moment);
   EXPECT_EQ(moment->stamp, now) << "nobody knows odometry of then";
   EXPECT_LT(error(), 0.15);
+}
+
+TEST_F(PoseWatch, ALookIsDueWhenScanAndOdometryOfThenHaveComeAndSoonWithoutIt) {
+  const std::vector<float> ranges(10, 2.0F);
+  const sensor_models::LaserReading reading{ranges, Angle{}, 0.1, 0.02, 10.0};
+  EXPECT_FALSE(watch->is_look_due(now));
+  watch->move(now - seconds(0.01), raw_from_base);
+  EXPECT_FALSE(watch->is_look_due(now)) << "no scan";
+  watch->see(0, now, reading, now);
+  EXPECT_FALSE(watch->is_look_due(now)) << "odometry is older than the scan";
+  EXPECT_TRUE(watch->awaits_odometry());
+  watch->move(now, raw_from_base);
+  EXPECT_TRUE(watch->is_look_due(now));
+  EXPECT_TRUE(watch->look(now));
+  EXPECT_FALSE(watch->is_look_due(now));
+  now = now + seconds(0.1);
+  watch->see(0, now, reading, now);
+  EXPECT_FALSE(watch->is_look_due(now + seconds(0.03)));
+  EXPECT_TRUE(watch->is_look_due(now + seconds(0.04))) << "with the odometry that there is";
+  EXPECT_TRUE(watch->look(now + seconds(0.04)));
 }
 
 TEST_F(PoseWatch, BeamsThatTheMapDoesNotHoldAreToldWithTheirEnds) {

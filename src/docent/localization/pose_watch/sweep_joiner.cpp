@@ -17,12 +17,21 @@ void SweepJoiner::keep(std::size_t laser, Time stamp, const sensor_models::Laser
   kept.is_new = true;
 }
 
-std::optional<SweepJoiner::Joined> SweepJoiner::join(const OdometryTrail& odometry) {
-  if (std::none_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; }))
-    return std::nullopt;
-  Joined joined;
+bool SweepJoiner::has_new() const {
+  return std::any_of(lasers_.begin(), lasers_.end(), [](const Laser& laser) { return laser.is_new; });
+}
+
+Time SweepJoiner::newest() const {
+  Time newest{};
   for (const Laser& laser : lasers_)
-    if (laser.is_new) joined.stamp = std::max(joined.stamp, laser.stamp);
+    if (laser.is_new) newest = std::max(newest, laser.stamp);
+  return newest;
+}
+
+std::optional<SweepJoiner::Joined> SweepJoiner::join(const OdometryTrail& odometry) {
+  if (!has_new()) return std::nullopt;
+  Joined joined;
+  joined.stamp = newest();
   const auto odom_from_base = odometry.at(joined.stamp);
   if (!odom_from_base) return std::nullopt;  // wait for odometry, or the scan is too old to be placed
   joined.odom_from_base = *odom_from_base;

@@ -21,6 +21,8 @@ class SweepJoiner {
   explicit SweepJoiner(const std::vector<Pose2>& base_from_laser);
 
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
+  [[nodiscard]] bool has_new() const;  ///< since the last sweep
+  [[nodiscard]] Time newest() const;   ///< stamp of the newest of what is new; of the beginning of time without any
   /// All scans about the robot's centre at the stamp of the newest.
   struct Joined {
     sensor_models::RangeSweep sweep;

@@ -23,9 +23,12 @@ class SweepJoiner : public ::testing::Test {
 
 TEST_F(SweepJoiner, JoinsAllLasersAboutTheRobotsCentre) {
   EXPECT_FALSE(joiner.join(odometry)) << "nothing has come";
+  EXPECT_FALSE(joiner.has_new());
   odometry.add(at(0.0), {1.0, 2.0, {}});
   see(0, at(0.0), 2.0F);
   see(1, at(0.0), 3.0F);
+  EXPECT_TRUE(joiner.has_new());
+  EXPECT_EQ(joiner.newest(), at(0.0));
   const auto joined = joiner.join(odometry);
   ASSERT_TRUE(joined);
   ASSERT_EQ(joined->sweep.beams.size(), 6U);
@@ -34,6 +37,7 @@ TEST_F(SweepJoiner, JoinsAllLasersAboutTheRobotsCentre) {
   EXPECT_NEAR(joined->sweep.beams[1].range, 2.1, 1e-6);
   EXPECT_NEAR(joined->sweep.beams[4].range, 3.1, 1e-6);
   EXPECT_FALSE(joiner.join(odometry)) << "nothing is new";
+  EXPECT_FALSE(joiner.has_new());
 }
 
 TEST_F(SweepJoiner, TheStampIsThatOfTheNewestAndOlderOnesAreMovedByOdometry) {

@@ -1,7 +1,11 @@
 #include "docent/modules/drive/hazards_module.h"
 
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 
@@ -21,7 +25,11 @@ class HazardsModule final : public Module {
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
-    // Says that it lives while the belief rests; the stamp stays that of the belief, so nobody takes it for newer.
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
+      odometry_ = Odometry{from_message(odometry.header.stamp), from_message(odometry.pose.pose)};
+      if (last_ && bus_.now() - published_ >= kMovingPeriod && is_carried()) publish();
+    });
+    // Says that it lives while the belief rests.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
     });
@@ -35,7 +43,37 @@ class HazardsModule final : public Module {
   }
 
  private:
-  static constexpr double kBeliefLife = 3.0;
+  static constexpr double kBeliefLife = 3.0;  // [s]
+  static constexpr Duration kMovingPeriod = std::chrono::milliseconds{80};
+  /// So long a belief is carried on by odometry; then its own stamp stands, and avoidance slows down by its age.
+  static constexpr double kCarriedFor = 0.6;  // [s]
+  static constexpr double kCarriedWay = 1.2;  // [m] more is a jump of odometry and no way
+  static constexpr double kMoved = 0.01;      // [m]
+  static constexpr double kTurned = 0.02;     // [rad]
+
+  struct Odometry {
+    Time stamp{};
+    Pose2 raw_from_base;
+  };
+  /// What was measured from the newest belief.
+  struct Measured {
+    Odometry at;
+    std::array<collision_avoidance::VirtualMeasurements::Ranges, 2> ranges;  ///< hazards, border
+  };
+
+  /// The way since the belief, where odometry tells of one.
+  [[nodiscard]] std::optional<Pose2> step() const {
+    if (!odometry_ || !(last_->at.stamp < odometry_->stamp)) return std::nullopt;
+    if (odometry_->stamp - last_->at.stamp > seconds(kCarriedFor)) return std::nullopt;
+    const Pose2 step = inverse(last_->at.raw_from_base) * odometry_->raw_from_base;
+    return norm(step.position()) < kCarriedWay ? std::optional{step} : std::nullopt;
+  }
+  /// It has moved since it last told, and what was measured can be carried on.
+  [[nodiscard]] bool is_carried() const {
+    if (!step()) return false;
+    const Pose2 since = inverse(told_from_.raw_from_base) * odometry_->raw_from_base;
+    return norm(since.position()) > kMoved || std::abs(since.theta.radians()) > kTurned;
+  }
 
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
@@ -58,26 +96,30 @@ class HazardsModule final : public Module {
     const auto of_border = border_.measure(poses_, squares_);
     possible_mass_ = of_hazards.possible_mass;
 
-    sensor_msgs::LaserScan scan;
-    scan.header = {belief.header.stamp, "base_link"};
-    scan.angle_increment =
-        static_cast<float>(2.0 * std::numbers::pi / collision_avoidance::VirtualMeasurements::kDirections);
-    scan.angle_min = static_cast<float>(-std::numbers::pi);
-    scan.angle_max =
-        scan.angle_min + scan.angle_increment * (2 * collision_avoidance::VirtualMeasurements::kDirections - 1);
-    scan.range_max = static_cast<float>(collision_avoidance::VirtualMeasurements::kMaxRange);
-    // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
-    for (const auto* measured : {&of_hazards, &of_border}) {
-      for (const double range : measured->ranges) scan.ranges.push_back(static_cast<float>(range));
-    }
-    last_ = std::move(scan);
+    last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
+                     {of_hazards.ranges, of_border.ranges}};
     received_ = bus_.now();
     publish();
   }
 
+  /// As of now, by odometry; where that cannot be, as of the belief, by whose stamp nobody takes it for newer.
   void publish() {
+    using collision_avoidance::VirtualMeasurements;
+    const auto way = step();
+    told_from_ = way ? *odometry_ : last_->at;
+    sensor_msgs::LaserScan scan;
+    scan.header = {to_message(told_from_.stamp), "base_link"};
+    scan.angle_increment = static_cast<float>(2.0 * std::numbers::pi / VirtualMeasurements::kDirections);
+    scan.angle_min = static_cast<float>(-std::numbers::pi);
+    scan.angle_max = scan.angle_min + scan.angle_increment * (2 * VirtualMeasurements::kDirections - 1);
+    scan.range_max = static_cast<float>(VirtualMeasurements::kMaxRange);
+    // Two turns: the body keeps off the hazards of the first, the centre off the border in the second.
+    for (const auto& measured : last_->ranges) {
+      const auto ranges = way ? collision_avoidance::carried(measured, *way) : measured;
+      for (const double range : ranges) scan.ranges.push_back(static_cast<float>(range));
+    }
     published_ = bus_.now();
-    scan_.publish(*last_);
+    scan_.publish(std::move(scan));
   }
 
   transport::Bus& bus_;
@@ -87,7 +129,9 @@ class HazardsModule final : public Module {
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;
   std::vector<collision_avoidance::WeightedSquare> squares_;
-  std::optional<sensor_msgs::LaserScan> last_;
+  std::optional<Measured> last_;
+  std::optional<Odometry> odometry_;
+  Odometry told_from_;
   Time received_{};
   Time published_{};
   double possible_mass_ = 1.0;

@@ -33,6 +33,7 @@ class HazardsModule : public ModuleBench {
     return belief;
   }
   [[nodiscard]] float ahead() const { return scans.back().ranges[kAhead]; }
+  transport::Publisher<nav_msgs::Odometry> odometries = world->publisher(topics::kOdometry);
   transport::Publisher<docent_msgs::Belief> beliefs = world->publisher(topics::kBelief);
   std::vector<sensor_msgs::LaserScan> scans;
 };
@@ -91,6 +92,31 @@ TEST_F(HazardsModule, RepeatsALastMeasurementWithItsStampUntilItIsTooOld) {
   run(0.01);
   EXPECT_EQ(scans.size(), 1U);
   EXPECT_EQ(module->health().state, "ready");
+}
+
+TEST_F(HazardsModule, CarriesOnWhatItMeasuredByOdometryForAWhile) {
+  const auto drive_to = [&](double x) {
+    nav_msgs::Odometry odometry;
+    odometry.header = {to_message(hub.now()), "odom"};
+    odometry.pose.pose = to_message(Pose2{x, 0.0, {}});
+    odometries.publish(odometry);
+    run(0.05);
+  };
+  start();
+  auto belief = belief_at({{8, 10}}, 0.0);
+  belief.odom_pose = to_message(Pose2{});
+  beliefs.publish(belief);
+  run(0.05);
+  const float first = ahead();
+  for (int i = 1; i <= 6; ++i) drive_to(0.05 * i);
+  EXPECT_NEAR(static_cast<double>(ahead()), static_cast<double>(first) - 0.3, 0.06) << "it has come nearer";
+  EXPECT_GT(from_message(scans.back().header.stamp), time_from_seconds(0.2)) << "as of now";
+  EXPECT_LE(scans.size(), 5U) << "not at each message of the odometry";
+  drive_to(60.0);
+  EXPECT_NEAR(static_cast<double>(ahead()), static_cast<double>(first) - 0.3, 0.06) << "a jump is no way";
+  for (int i = 7; i <= 20; ++i) drive_to(0.3);
+  EXPECT_EQ(from_message(scans.back().header.stamp), Time{}) << "an old belief is not made younger for ever";
+  EXPECT_EQ(ahead(), first);
 }
 
 TEST_F(HazardsModule, ANewProcessMeasuresAtOnceFromTheBeliefThatHolds) {

@@ -1,6 +1,7 @@
 #include "docent/modules/exploration/explore_module.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/planning/survey/surveyor.h"
+#include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
 namespace {
@@ -55,6 +57,15 @@ docent_msgs::Exploration report_message(const planning::Surveyor::Report& report
   return message;
 }
 
+/// What avoidance says that it stands or turns away for.
+planning::ExplorationDrive::Hindrance hindrance_of(const std::string& reason) {
+  using Hindrance = planning::ExplorationDrive::Hindrance;
+  const auto word = parse<ReasonWord>(reason);
+  if (word == ReasonWord::person_in_way || word == ReasonWord::people_near) return Hindrance::person;
+  if (word == ReasonWord::border_in_way || word == ReasonWord::hazard_in_way) return Hindrance::ground;
+  return word == ReasonWord::obstacle_in_way ? Hindrance::thing : Hindrance::unknown;
+}
+
 class ExploreModule final : public Module {
  public:
   ExploreModule(const ModuleContext& context, const planning::SurveyorParams& params, planning::SurveySite site)
@@ -79,6 +90,8 @@ class ExploreModule final : public Module {
                                           [this](const auto&) { surveyor_.note_steering(bus_.now()); });
     bus_.subscribe<docent_msgs::ExplorationOrder>(
         topics::kExplorationOrder, [this](const auto& order) { obey(parse<ExplorationOrder>(order.order)); });
+    bus_.subscribe<docent_msgs::AvoidState>(
+        topics::kAvoidState, [this](const auto& state) { surveyor_.note_hindrance(hindrance_of(state.reason)); });
     bus_.every(kTargetPeriod, [this] { aim(); });
     bus_.every(kPlanPeriod, [this] { plan(); });
     bus_.every(kMapPeriod, [this] { publish_map(surveyor_.map()); });

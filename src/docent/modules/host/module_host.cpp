@@ -27,6 +27,7 @@ Result<std::unique_ptr<ModuleHost>> ModuleHost::create(const ModuleEntry& entry,
                                                        const Options& options) {
   std::unique_ptr<ModuleHost> host{new ModuleHost{entry.name, std::move(bus)}};
   host->pid_ = options.pid;
+  host->handicap_ = options.handicap;
   host->health_ = host->bus_->publisher(topics::kHealth);
   const auto checked_robot = checked_robot_of_plan(config);
   if (!checked_robot) return tl::unexpected<Error>(checked_robot.error());
@@ -44,6 +45,10 @@ void ModuleHost::publish_health() {
   if (const std::string refused = lately_refused(*bus_); !refused.empty()) {
     if (health.state == "ready") health.state = "degraded";
     health.reason += (health.reason.empty() ? "" : "; ") + refused;
+  }
+  if (!handicap_.empty()) {
+    if (health.state == "ready") health.state = "degraded";
+    health.reason += (health.reason.empty() ? "" : "; ") + handicap_;
   }
   docent_msgs::Health message;
   message.header.stamp = to_message(bus_->now());

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "docent/modules/host/registry.h"
 
@@ -20,6 +21,7 @@ class ModuleHost {
     Duration day_begins = std::chrono::hours{10};  ///< see ModuleContext
     std::filesystem::path cache{};                 ///< likewise
     bool is_setup = false;                         ///< likewise
+    std::string handicap{};                        ///< of its process, told in its health; empty: none
   };
   /// Error: what the module's factory says of the configuration.
   [[nodiscard]] static Result<std::unique_ptr<ModuleHost>> create(const ModuleEntry& entry,
@@ -42,6 +44,7 @@ class ModuleHost {
   std::unique_ptr<Module> module_;
   transport::Publisher<docent_msgs::Health> health_;
   int pid_ = 0;
+  std::string handicap_;
 };
 
 }  // namespace docent::modules

@@ -26,8 +26,8 @@ namespace {
 // clang-format off
 constexpr std::array kModules{
     ModuleEntry{.name = "avoid", .make = make_avoid, .parameters = parameters_of_avoid, .is_urgent = true, .explores = true, .marks = true},
-    ModuleEntry{.name = "hazards", .make = make_hazards, .parameters = parameters_of_hazards, .explores = true, .marks = true},
-    ModuleEntry{.name = "localize", .make = make_localize, .parameters = parameters_of_localize, .keeps_cache = true, .marks = true},
+    ModuleEntry{.name = "hazards", .make = make_hazards, .parameters = parameters_of_hazards, .is_urgent = true, .explores = true, .marks = true},
+    ModuleEntry{.name = "localize", .make = make_localize, .parameters = parameters_of_localize, .is_prompt = true, .keeps_cache = true, .marks = true},
     ModuleEntry{.name = "map", .make = make_map, .parameters = parameters_of_map, .marks = true},
     ModuleEntry{.name = "people", .make = make_people, .parameters = parameters_of_people, .explores = true, .marks = true},
     ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},

@@ -23,8 +23,6 @@
 namespace docent::modules {
 namespace {
 
-constexpr Duration kLookPeriod = std::chrono::milliseconds{100};
-
 /// Section `localize.sonar`: sonars alone, with `localize.method: sonar`, or beside the lasers.
 struct SonarParams {
   SonarLocalizeParams alone;
@@ -146,13 +144,13 @@ class LocalizeModule final : public Module {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_silence_.hear(0, bus_.now());
       watch_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
+      look_if_due();
     });
     scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });
-    bus_.every(kLookPeriod, [this] { look(); });
   }
 
   [[nodiscard]] ModuleHealth health_of_sonars(Time now) const {
@@ -173,7 +171,17 @@ class LocalizeModule final : public Module {
     watch_.see(
         laser, from_message(scan.header.stamp),
         {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
-         static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)});
+         static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)},
+        bus_.now());
+    // Behind all scans that have come with this one: a look takes the newest, and queues none.
+    bus_.post([this] {
+      if (watch_.awaits_odometry()) bus_.after(localization::PoseWatch::kOdometryPatience, [this] { look_if_due(); });
+      look_if_due();
+    });
+  }
+
+  void look_if_due() {
+    if (watch_.is_look_due(bus_.now())) look();
   }
 
   void on_sonar(const sensor_msgs::Range& range) {

@@ -34,6 +34,7 @@ std::vector<Point2> smoothed(const std::vector<Point2>& cells) {
 Result<void> ExplorationDriveParams::validate() const {
   if (!(horizon > 0.0)) return fail("horizon must be > 0 m");
   if (!(held_up > 0.0)) return fail("held_up must be > 0 s");
+  if (!(barred > 0.0)) return fail("barred must be > 0 s");
   if (!(moved > 0.0)) return fail("moved must be > 0 m");
   if (!(turned_away > 0.0)) return fail("turned_away must be > 0 s");
   if (!(home_tolerance > 0.0)) return fail("home_tolerance must be > 0 m");
@@ -50,24 +51,34 @@ ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, Explore
 
 void ExplorationDrive::set_way(std::vector<Point2> cells) { way_ = smoothed(cells); }
 
-void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
+void ExplorationDrive::note_held_up(Point2 robot, bool stays, Time now) {
+  Point2 at = way_.back();
+  for (const Point2 point : way_) {
+    if (distance(point, robot) < kBlockedAhead) continue;
+    at = point;
+    break;
+  }
+  note_failure(way_.back(), robot, stays);
+  obstacles_.push_back({at, now + seconds(params_.turned_away), stays});
+  if (state_ == State::returning) ++held_up_on_way_home_;
+  progress_ = now;
+}
+
+void ExplorationDrive::forget_what_may_go() {
+  std::erase_if(obstacles_, [](const Obstacle& obstacle) { return !obstacle.stays; });
+}
+
+void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now, Hindrance hindrance) {
   if (waits || !progress_ || distance(robot, last_progress_) >= params_.moved) {
     last_progress_ = robot;
     progress_ = now;
   }
-  std::erase_if(obstacles_, [&](const Obstacle& obstacle) { return obstacle.until <= now; });
-  if (now - *progress_ >= seconds(params_.held_up) && !way_.empty()) {
-    Point2 at = way_.back();
-    for (const Point2 point : way_) {
-      if (distance(point, robot) < kBlockedAhead) continue;
-      at = point;
-      break;
-    }
-    note_failure(way_.back(), robot);
-    obstacles_.push_back({at, now + seconds(params_.turned_away)});
-    if (state_ == State::returning) ++held_up_on_way_home_;
-    progress_ = now;
-  }
+  std::erase_if(obstacles_, [&](const Obstacle& obstacle) { return !obstacle.stays && obstacle.until <= now; });
+  const double patience = hindrance == Hindrance::ground ? params_.barred : params_.held_up;
+  const bool stays = hindrance == Hindrance::ground || hindrance == Hindrance::thing;
+  // On its way home it goes by whatever opens.
+  if (now - *progress_ >= seconds(patience) && !way_.empty())
+    note_held_up(robot, stays && state_ == State::exploring, now);
   explorer_.unblock();
   for (const Obstacle& obstacle : obstacles_) {
     // Never so wide that the robot stands within it.
@@ -76,12 +87,12 @@ void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now) {
   }
 }
 
-void ExplorationDrive::note_failure(Point2 goal, Point2 robot) {
+void ExplorationDrive::note_failure(Point2 goal, Point2 robot, bool stays) {
   auto known = std::find_if(failures_.begin(), failures_.end(),
                             [&](const Failure& failure) { return distance(failure.goal, goal) < kOneGoal; });
   if (known == failures_.end()) known = failures_.insert(failures_.end(), {goal, 0});
   const bool is_there = distance(goal, robot) < kBlockedAhead;
-  if (++known->times >= kTriesAGoal || is_there) explorer_.give_up(goal, kOneGoal);
+  if (++known->times >= kTriesAGoal || is_there || stays) explorer_.give_up(goal, kOneGoal);
 }
 
 /// Two places may each look worse when the robot comes near, and it would drive to and fro between them for ever.
@@ -127,11 +138,11 @@ void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now)
   way_.clear();
 }
 
-void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now) {
+void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now, Hindrance hindrance) {
   if (state_ == State::arrived) return;
   if (last_) driven_ += distance(*last_, robot);
   last_ = robot;
-  note_progress(robot, waits, now);
+  note_progress(robot, waits, now, hindrance);
   if (explore(map, robot)) {
     state_ = State::exploring;
     stuck_.reset();
@@ -139,7 +150,7 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
   }
   if (state_ == State::returning) return go_home(map, robot, now);
   way_.clear();
-  if (stuck_ && now - *stuck_ >= seconds(params_.forget)) obstacles_.clear();
+  if (stuck_ && now - *stuck_ >= seconds(params_.forget)) forget_what_may_go();
   const bool is_enclosed = way_home(map, robot).empty();
   if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;
   state_ = State::returning;

@@ -13,6 +13,7 @@ namespace docent::planning {
 struct ExplorationDriveParams {
   double horizon = 3.0;         ///< [m], > 0: so far ahead of the robot its way is told to the avoidance
   double held_up = 8.0;         ///< [s], > 0: so long it waits where it does not get on, then it goes elsewhere
+  double barred = 2.0;          ///< [s], > 0: likewise where what no sensor sees bars its way: that stays as it is
   double moved = 0.3;           ///< [m], > 0: that counts as getting on
   double turned_away = 120.0;   ///< [s], > 0: so long it keeps off where it was held up
   double home_tolerance = 0.4;  ///< [m], > 0
@@ -23,6 +24,7 @@ struct ExplorationDriveParams {
   void visit(V& v) {
     v("horizon", horizon);
     v("held_up", held_up);
+    v("barred", barred);
     v("moved", moved);
     v("turned_away", turned_away);
     v("home_tolerance", home_tolerance);
@@ -39,14 +41,18 @@ struct ExplorationDriveParams {
 class ExplorationDrive {
  public:
   enum class State { exploring, returning, arrived };
+  /// What stands in its way, as far as anybody knows. A person goes away; a thing and what no sensor sees do not, so
+  /// the place is left after one look.
+  enum class Hindrance { unknown, person, thing, ground };
 
   ExplorationDrive(const ExplorationDriveParams& params, Explorer explorer, Point2 home);
 
   /// Plans anew. O(cells of the map)
   /// @param waits  it is held by hand, or knows no way for another reason: no time counts
-  void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now);
-  /// See `Explorer::set_doubt`.
+  void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now, Hindrance hindrance = Hindrance::unknown);
+  /// See `Explorer`.
   void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
+  void set_place_doubt(double sigma) { explorer_.set_place_doubt(sigma); }
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;
@@ -63,6 +69,7 @@ class ExplorationDrive {
   struct Obstacle {
     Point2 place;
     Time until{};
+    bool stays = false;
   };
   struct Failure {
     Point2 goal;
@@ -75,9 +82,11 @@ class ExplorationDrive {
   };
   /// It sets out for another place than before.
   void note_choice(Point2 goal);
-  /// It was held up on its way to `goal`.
-  void note_failure(Point2 goal, Point2 robot);
-  void note_progress(Point2 robot, bool waits, Time now);
+  /// It was held up on its way to `goal`, by what `stays` or may go.
+  void note_failure(Point2 goal, Point2 robot, bool stays);
+  void note_progress(Point2 robot, bool waits, Time now, Hindrance hindrance);
+  void note_held_up(Point2 robot, bool stays, Time now);
+  void forget_what_may_go();
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
   [[nodiscard]] bool is_stuck_for(double most_s, Time now);
   [[nodiscard]] std::vector<Point2> way_home(const OccupancyGrid& map, Point2 robot) const;

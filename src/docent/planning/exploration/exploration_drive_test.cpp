@@ -48,6 +48,32 @@ TEST(ExplorationDrive, GoesToWhatIsUnknownThenHomeThenStays) {
   EXPECT_TRUE(drive.ahead(home).via.empty());
 }
 
+/// A robot that stands still at x = 5 m in a hall of which it knows 8 m, on its way on.
+int seconds_until_it_gives_up(ExplorationDrive& drive, ExplorationDrive::Hindrance hindrance, int most) {
+  Time now{};
+  for (int i = 0; i < most; ++i) {
+    drive.plan(hall(8.0), {5.0, 2.0}, false, now = now + seconds(1.0), hindrance);
+    if (drive.frontier() == 0) return i;
+  }
+  return most;
+}
+
+TEST(ExplorationDrive, WhatBarsTheWayForGoodIsLookedAtOnce) {
+  using Hindrance = ExplorationDrive::Hindrance;
+  ExplorationDriveParams params;
+  params.turned_away = 1e-3;  // [s]: the disc in its way alone would be forgotten at once
+  const auto drive_with = [&](Hindrance hindrance, int most) {
+    ExplorationDrive drive{params, Explorer{{}}, {5.0, 2.0}};
+    const int took = seconds_until_it_gives_up(drive, hindrance, most);
+    EXPECT_LE(drive.explorer().unreached(hall(8.0)).size(), 2U);
+    return took;
+  };
+  const int ground = drive_with(Hindrance::ground, 200), thing = drive_with(Hindrance::thing, 200);
+  const int person = drive_with(Hindrance::person, 200);
+  EXPECT_LT(ground, thing) << "nobody moves a border";
+  EXPECT_LT(thing, person) << "somebody may go away";
+}
+
 TEST(ExplorationDrive, ComesHomeThroughADoorThatIsHardlyWideEnough) {
   OccupancyGrid map = hall(12.0);
   for (int row = 1; row < 79; ++row) {  // a wall at 6 m, with a door of 0.65 m

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "docent/grid/ground.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
 namespace docent::planning {
@@ -81,7 +82,7 @@ Result<void> ExplorerParams::validate() const {
   if (!(switch_cost >= 0.0)) return fail("switch_cost must be >= 0");
   if (!(open_reach > 0.0)) return fail("open_reach must be > 0");
   if (!(open_cost >= 0.0)) return fail("open_cost must be >= 0");
-  if (!(hazard_margin >= 0.0)) return fail("hazard_margin must be >= 0");
+  if (!(border_margin >= 0.0 && hazard_margin >= 0.0)) return fail("border_margin and hazard_margin must be >= 0");
   if (!(doubt_sigmas >= 0.0 && doubt_free >= 0.0 && most_doubt >= 0.0)) return fail("doubt must be >= 0");
   if (!(gap >= 0.0)) return fail("gap must be >= 0");
   if (!(close > 0.0)) return fail("close must be > 0");
@@ -90,7 +91,7 @@ Result<void> ExplorerParams::validate() const {
 }
 
 Explorer::Explorer(ExplorerParams params, std::vector<Polygon> hazards, Polygon area)
-    : params_{params}, area_{std::move(area)} {
+    : params_{params}, area_{std::move(area)}, border_margin_{params.border_margin} {
   for (Polygon& outline : hazards) {
     Hazard hazard{std::move(outline), {}, 0.0};
     for (const Point2 corner : hazard.outline)
@@ -106,13 +107,31 @@ bool Explorer::is_given_up(Point2 place, double within) const {
                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
-bool Explorer::may_stand(Point2 place, double hazard_margin) const {
+void Explorer::set_place_doubt(double sigma) {
+  border_margin_ = std::max(params_.border_margin, border_clearance_of(sigma));
+}
+
+Clearance Explorer::clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const {
+  const double more = std::clamp(params_.doubt_sigmas * doubt_ - params_.doubt_free, 0.0, params_.most_doubt);
+  Clearance result{params_.wall_margin, params_.hazard_margin + (is_squeezing ? 0.0 : more), border_margin_};
+  if (is_squeezing) result.border = params_.border_margin;
+  if (!is_near) return result;
+  if (!is_squeezing) result.hazards = params_.tight_margin;
+  // From where the robot stands too near to the border all ways lead away from it.
+  if (robot && !area_.empty()) {
+    const double there = contains(area_, *robot) ? outline_distance(area_, *robot) : 0.0;
+    result.border = std::min(result.border, std::max(0.0, there - params_.tight_margin));
+  }
+  return result;
+}
+
+bool Explorer::may_stand(Point2 place, const Clearance& clearance) const {
   constexpr double kRounding = 1e-6;  // [m]
-  if (!area_.empty() && !contains(area_, place)) return false;
-  const double keep = params_.robot_radius + hazard_margin;
+  if (room_on_ground(area_, {}, place, params_.robot_radius, clearance) < 0.0) return false;
+  const double keep = params_.robot_radius + clearance.hazards;
   for (const Hazard& hazard : hazards_) {
     if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;
-    if (distance(hazard.outline, place) < keep) return false;
+    if (room_on_ground({}, {&hazard.outline, 1}, place, params_.robot_radius, clearance) < 0.0) return false;
   }
   return std::none_of(blocked_.begin(), blocked_.end(),
                       [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
@@ -125,8 +144,7 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
   for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = result.coarse.cells[i] >= 65;
   const auto clearances = distance_transform(frame, solid);
   result.costs.assign(frame.size(), ValueIteration::kClosed);
-  const double more = std::clamp(params_.doubt_sigmas * doubt_ - params_.doubt_free, 0.0, params_.most_doubt);
-  const double keep_off = params_.hazard_margin + (is_squeezing ? 0.0 : more);
+  const Clearance far = clearance(robot, is_squeezing, false), near = clearance(robot, is_squeezing, true);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex cell{column, row};
@@ -139,7 +157,7 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
       if (is_near && is_free && spare < 0.0)
         spare = fine_clearance(map, frame.centre(cell), params_.robot_radius + params_.wall_margin) -
                 params_.robot_radius - params_.wall_margin;
-      if (!may_stand(frame.centre(cell), is_near && !is_squeezing ? params_.tight_margin : keep_off)) continue;
+      if (!may_stand(frame.centre(cell), is_near ? near : far)) continue;
       if (is_frontier && spare < 0.0 && static_cast<double>(clearances[i]) >= params_.gap) result.gaps.push_back(cell);
       if (spare < (is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0)) continue;
       if (is_frontier) {

@@ -9,6 +9,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/polygon.h"
+#include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
 
 namespace docent::planning {
@@ -27,6 +28,7 @@ struct ExplorerParams {
   double open_cost = 1.0;       ///< >= 0: extra cost, as a factor, at twice that
   double home_cost = 0.7;       ///< [m/m], >= 0: for each metre that a place is farther from home: loops stay short
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
+  double border_margin = 0.20;  ///< [m] from the centre to the area's border, as localize's planner; more by the belief
   double hazard_margin = 0.30;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
   double doubt_sigmas = 1.0;    ///< >= 0: that much more, in sigmas of where such marks lie, as far as these are
   double doubt_free = 0.15;     ///< [m], >= 0: more than this, which the margin holds already;
@@ -48,6 +50,7 @@ struct ExplorerParams {
     v("open_cost", open_cost);
     v("home_cost", home_cost);
     v("switch_cost", switch_cost);
+    v("border_margin", border_margin);
     v("hazard_margin", hazard_margin);
     v("doubt_sigmas", doubt_sigmas);
     v("doubt_free", doubt_free);
@@ -89,6 +92,9 @@ class Explorer {
 
   /// How far off, by one standard deviation [m], what people have marked may lie from the robot's place on the map.
   void set_doubt(double sigma) { doubt_ = sigma; }
+  /// Standard deviation [m] of the robot's own place, along each axis: avoidance keeps that much farther from the
+  /// area's border, so ways do.
+  void set_place_doubt(double sigma);
   /// [m], map: what is near to it is explored first.
   void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
@@ -116,7 +122,8 @@ class Explorer {
     std::vector<CellIndex> gaps;      ///< the same, too narrow by what is known, but perhaps only seen badly
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
-  [[nodiscard]] bool may_stand(Point2 place, double hazard_margin) const;
+  [[nodiscard]] bool may_stand(Point2 place, const Clearance& clearance) const;
+  [[nodiscard]] Clearance clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const;
   [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing = false) const;
   [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
@@ -130,6 +137,7 @@ class Explorer {
   std::vector<Hazard> hazards_;
   Polygon area_;
   double doubt_ = 0.0;
+  double border_margin_;  ///< [m] with the robot's own doubt
   std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;

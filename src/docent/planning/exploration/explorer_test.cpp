@@ -290,5 +290,42 @@ TEST(Explorer, FindsTheWayBackAndNamesWhatItCouldNotReach) {
   EXPECT_NEAR(unreached.front().place.x, 10.0, 0.2);
 }
 
+/// The area of a hall of 12 x 4 m, which narrows to so much [m] either side of its middle between x = 4 and 5 m.
+Polygon area_with_door(double half) {
+  return {{0.3, 0.3},  {4, 0.3}, {4, 2 - half}, {5, 2 - half}, {5, 0.3}, {11.7, 0.3},
+          {11.7, 3.7}, {5, 3.7}, {5, 2 + half}, {4, 2 + half}, {4, 3.7}, {0.3, 3.7}};
+}
+
+OccupancyGrid empty_hall() {
+  OccupancyGrid map;
+  map.frame = {240, 80, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  return map;
+}
+
+TEST(Explorer, WaysLeadWhereAvoidanceLetsTheCentreBe) {
+  const Point2 robot{2.0, 2.0}, goal{9.0, 2.0};
+  const auto has_way = [&](double half, double sigma, Point2 from) {
+    Explorer explorer{{}, {}, area_with_door(half)};
+    explorer.set_place_doubt(sigma);
+    return !explorer.way_to(empty_hall(), from, goal).empty();
+  };
+  EXPECT_FALSE(has_way(0.15, 0.0, robot)) << "the floor is wide, the area is not";
+  EXPECT_FALSE(has_way(0.15, 0.0, {3.5, 2.0})) << "and it stays narrow from nearby";
+  EXPECT_TRUE(has_way(0.26, 0.04, robot));
+  EXPECT_FALSE(has_way(0.26, 0.08, robot)) << "a robot that knows its place less";
+  EXPECT_TRUE(has_way(0.35, 0.08, robot));
+}
+
+TEST(Explorer, FromTooNearToTheBorderTheWayLeadsAway) {
+  const Explorer explorer{{}, {}, area_with_door(0.4)};
+  const auto way = explorer.way_to(empty_hall(), {2.0, 0.36}, {9.0, 2.0});
+  ASSERT_FALSE(way.empty());
+  for (const Point2 at : way) {
+    if (distance(at, {2.0, 0.36}) < 0.9) continue;
+    EXPECT_GE(outline_distance(area_with_door(0.4), at), 0.19);
+  }
+}
+
 }  // namespace
 }  // namespace docent::planning::explorer_test

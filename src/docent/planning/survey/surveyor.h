@@ -47,6 +47,7 @@ class Surveyor {
   // What the robot senses and is told.
   void move(Time stamp, const collision_avoidance::BaseState& state) { frame_.move(stamp, state); }
   void note_people(std::span<const TrackedPerson> people) { walkers_.note(people); }
+  void note_hindrance(ExplorationDrive::Hindrance hindrance) { hindrance_ = hindrance; }  ///< what avoidance says
   void note_stop(bool is_stopped) { is_stopped_ = is_stopped; }  ///< somebody has pressed the stop button
   void note_steering(Time now) { steered_ = now; }               ///< somebody steers by hand
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
@@ -103,6 +104,8 @@ class Surveyor {
  private:
   [[nodiscard]] SurveyPhase phase() const;
   [[nodiscard]] bool is_held(Time now) const;
+  [[nodiscard]] ExplorationDrive::Hindrance hindrance() const;
+  [[nodiscard]] double sigma() const;  ///< [m] of its place, along each axis
   void keep_place(Time now) const;
 
   SurveyorParams params_;
@@ -113,6 +116,7 @@ class Surveyor {
   SurveyMap map_;
   ExplorationDrive drive_;
   ExplorationOrder order_;
+  ExplorationDrive::Hindrance hindrance_ = ExplorationDrive::Hindrance::unknown;
   bool is_stopped_ = false;
   std::optional<Time> steered_;
   bool is_done_ = false;
