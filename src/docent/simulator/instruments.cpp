@@ -97,6 +97,7 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          scanner.frame,
                          {laser_of(scanner), scanner.base_from_scanner, rng.stream("laser_" + scanner.name)},
                          bus.publisher(topics::scan_topic(scanner.name)),
+                         {},
                          {}});
     beams_ += scanners_.back().laser.params().beams;
   }
@@ -115,6 +116,11 @@ void Instruments::set_fault(const SensorFault& fault, Time now) {
   const Time until =
       fault.duration > 0.0 ? now + seconds(fault.duration) : Time{std::numeric_limits<std::int64_t>::max()};
   faults_[static_cast<std::size_t>(fault.sensor)] = Fault{fault.kind, until, fault.delay};
+}
+
+void Instruments::set_lie(const ScannerLie& lie, Time now) {
+  for (Scanner& scanner : scanners_)
+    if (scanner.sensor == lie.sensor) scanner.lies.begin(lie, now);
 }
 
 const Instruments::Fault* Instruments::fault_of(Sensor sensor, Time now) const {
@@ -208,6 +214,8 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
     ++met_[static_cast<std::size_t>(person)];
   }
   blocked_share_ += static_cast<double>(blocked) / beams_;
+  scanner.lies.tell(now, {message.ranges, message.range_min, message.range_max, message.angle_min,
+                          message.angle_increment});
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 

@@ -76,9 +76,10 @@ class EventReader {
     if (kind == "kill") return kill(body);
     if (kind == "second_mode") return second_mode(body);
     if (kind == "odometry_jump") return odometry_jump(body);
+    if (kind == "lie") return scanner_lie(body);
     fault(kind_at_, "unknown kind '" + kind +
                         "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump)");
+                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -221,6 +222,38 @@ class EventReader {
         event.kind == FaultKind::near || event.kind == FaultKind::deaf || event.kind == FaultKind::storm;
     if (event.sensor == Sensor::odom && is_of_ranges) fault(kind_at_, "odometry has no ranges to be wrong");
     if (event.sensor == Sensor::tactile && is_of_ranges) fault(kind_at_, "the tactile ring has no ranges to be wrong");
+    return event;
+  }
+  [[nodiscard]] ScannerLie scanner_lie(const YAML::Node& node) const {
+    ScannerLie event;
+    fields(node,
+           {{"sensor",
+             [&](const YAML::Node& at) {
+               choice<Sensor>(at,
+                              {{"laser_front", Sensor::laser_front},
+                               {"laser_rear", Sensor::laser_rear},
+                               {"laser_left", Sensor::laser_left},
+                               {"laser_right", Sensor::laser_right}},
+                              event.sensor);
+             }},
+            {"kind",
+             [&](const YAML::Node& at) {
+               choice<Lie>(at,
+                           {{"units", Lie::units},
+                            {"silent", Lie::silent},
+                            {"sector", Lie::sector},
+                            {"too_near", Lie::too_near},
+                            {"blind_near", Lie::blind_near},
+                            {"offset", Lie::offset},
+                            {"scaled", Lie::scaled},
+                            {"stale", Lie::stale},
+                            {"looped", Lie::looped}},
+                           event.lie);
+             }},
+            {"amount", [&](const YAML::Node& at) { event.amount = number(at, -100.0, 1e5); }},
+            {"bearing", degrees_into(event.bearing)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"sensor", "kind"});
     return event;
   }
   [[nodiscard]] Stool stool(const YAML::Node& node) const {
