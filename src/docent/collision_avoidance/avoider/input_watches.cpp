@@ -18,9 +18,20 @@ std::optional<Complaint> InputWatches::complaint_of_laser(Time now, std::size_t 
   return found;
 }
 
+std::optional<Complaint> InputWatches::complaint_of_lasers(Time now, const ObstacleMemory& memory) const {
+  std::optional<Complaint> found;
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    auto of_this = complaint_of_laser(now, i, memory);
+    if (found && of_this) of_this->reason = found->reason + "; " + of_this->reason;  // each is named
+    if (of_this) of_this->max_speed = std::min(of_this->max_speed, found ? found->max_speed : of_this->max_speed);
+    if (of_this) found = std::move(of_this);
+  }
+  return found;
+}
+
 std::optional<Complaint> InputWatches::complaint(Time now, const ObstacleMemory& memory) const {
   auto found = odometry_.complaint(now);
-  for (std::size_t i = 0; i < lasers_.size(); ++i) found = worse(found, complaint_of_laser(now, i, memory));
+  found = worse(std::move(found), complaint_of_lasers(now, memory));
   if (params_.needs_sonar) found = worse(found, sonars_.complaint(now, true));
   found = worse(found, tactile_.complaint(now, params_.has_tactile));
   found = worse(found, infrareds_.complaint(now, params_.has_infrared));

@@ -92,6 +92,7 @@ class InputWatches {
  private:
   [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index,
                                                             const ObstacleMemory& memory) const;
+  [[nodiscard]] std::optional<Complaint> complaint_of_lasers(Time now, const ObstacleMemory& memory) const;
 
   InputWatchesParams params_;
   std::vector<std::string> lasers_;

@@ -8,6 +8,19 @@ namespace {
 
 bool is_silent(const SweepView& view, std::size_t sample) { return view.ranges[sample] == kNoAnswer; }
 
+/// Whether at least `share` of the samples that answer do so within `noise` [m] of what is expected.
+bool is_rest_as_expected(const SweepView& view, std::span<const float> expected, double share, double noise) {
+  int answers = 0;
+  int as_expected = 0;
+  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
+    if (!view.met(i) || !(expected[i] < kNoAnswer)) continue;
+    ++answers;
+    const bool is_between = expected[i] >= view.nearest[i] - noise && expected[i] <= view.farthest[i] + noise;
+    as_expected += is_between ? 1 : 0;
+  }
+  return as_expected >= share * answers;
+}
+
 }  // namespace
 
 void BlindSectors::follow(const SweepView& view) {
@@ -16,8 +29,8 @@ void BlindSectors::follow(const SweepView& view) {
   std::erase_if(sectors_, [&](Sector& sector) {
     std::size_t answers = 0;
     for (std::size_t i = sector.run.first; i < sector.run.end; ++i) answers += view.met(i) ? 1 : 0;
-    const bool is_open = static_cast<double>(answers) >=
-                         params_.opened * static_cast<double>(sector.run.end - sector.run.first);
+    const bool is_open =
+        static_cast<double>(answers) >= params_.opened * static_cast<double>(sector.run.end - sector.run.first);
     sector.opened = is_open ? sector.opened + 1 : 0;
     if (!is_open) ++sector.sweeps;
     return sector.opened >= (sector.sweeps < params_.sure ? 1 : params_.sure);
@@ -28,6 +41,7 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
   const auto is_known = [&](std::size_t i) {
     return expected[i] < params_.surely_within * view.max_range;  // false for NaN
   };
+  if (!is_rest_as_expected(view, expected, params_.rest, params_.noise)) return;
   const double least_arc = params_.least_arc + params_.people * elapsed;
   for (std::size_t i = 0; i < view.ranges.size();) {
     if (!is_silent(view, i)) {

@@ -10,7 +10,7 @@ namespace {
 /// Too short is safe, and is what wheels that slip look like.
 constexpr std::array<double, 7> kScales{1.5, 2.0, 2.5, 3.3, 5.0, 10.0, 30.0};
 constexpr std::array<double, 7> kLags{0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};  // [s]
-constexpr double kTrail = 9.0;                                             // [s]
+constexpr double kTrail = 9.0;                                              // [s]
 
 }  // namespace
 
@@ -21,8 +21,7 @@ Pose2 MotionCheck::odom_from_sensor_at(Time time) const {
   const Step& before = *std::prev(after);
   const double share = to_seconds(time - before.stamp) / std::max(1e-6, to_seconds(after->stamp - before.stamp));
   const Pose2 step = inverse(before.odom_from_sensor) * after->odom_from_sensor;
-  return before.odom_from_sensor *
-         Pose2{share * step.x, share * step.y, Angle::radians(share * step.theta.radians())};
+  return before.odom_from_sensor * Pose2{share * step.x, share * step.y, Angle::radians(share * step.theta.radians())};
 }
 
 MotionCheck::Share MotionCheck::share_of(const SweepView& view, const Pose2& now_from_then) {
@@ -44,19 +43,34 @@ MotionCheck::Finding MotionCheck::count(Finding finding) {
   return row_ >= params_.sure ? finding : Finding::nothing;
 }
 
-MotionCheck::Finding MotionCheck::compare(const SweepView& view) {
+bool MotionCheck::differs(const Pose2& a, const Pose2& b) const {
+  const Pose2 off = inverse(a) * b;
+  return norm(off.position()) >= params_.differs_way || std::abs(off.theta.radians()) >= params_.differs_turn;
+}
+
+Pose2 MotionCheck::now_from_then_if_late(const SweepView& view, double lag) const {
+  return inverse(odom_from_sensor_at(view.stamp - seconds(lag))) * odom_from_sensor_at(from_->stamp - seconds(lag));
+}
+
+bool MotionCheck::would_late_ones_differ(const SweepView& view, const Pose2& by_odometry, double agrees) {
+  return std::all_of(kLags.begin(), kLags.end(), [&](double lag) {
+    if (lag < params_.late) return true;
+    const Pose2 late = now_from_then_if_late(view, lag);
+    return differs(by_odometry, late) && share_of(view, late).agrees <= agrees - params_.otherwise;
+  });
+}
+
+MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_late) {
   const Pose2 by_odometry = inverse(view.odom_from_sensor) * from_->odom_from_sensor;
   const Share here = share_of(view, by_odometry);
-  if (here.compared >= params_.law.least && here.agrees >= params_.surely_agrees) return Finding::in_order;
+  if (here.compared >= params_.law.least && here.agrees >= params_.surely_agrees)
+    return !may_be_late || would_late_ones_differ(view, by_odometry, here.agrees) ? Finding::in_order
+                                                                                  : Finding::nothing;
   const double least = std::max(params_.explains, here.agrees + params_.better);
-  const auto differs = [&](const Pose2& other) {
-    const Pose2 off = inverse(by_odometry) * other;
-    return norm(off.position()) >= params_.differs_way || std::abs(off.theta.radians()) >= params_.differs_turn;
-  };
   Finding finding = Finding::nothing;
   double best = least;
   const auto try_out = [&](const Pose2& other, Finding means) {
-    if (!differs(other)) return false;
+    if (!differs(by_odometry, other)) return false;
     const Share share = share_of(view, other);
     if (share.compared < params_.law.least || share.agrees < best) return false;
     best = share.agrees;
@@ -69,15 +83,14 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view) {
     if (try_out(longer, Finding::too_long)) scale_ = scale;
   }
   for (const double lag : kLags) {
-    const Pose2 late = inverse(odom_from_sensor_at(view.stamp - seconds(lag))) *
-                       odom_from_sensor_at(from_->stamp - seconds(lag));
-    if (try_out(late, Finding::late)) lag_ = lag;
+    if (try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
   }
   if (finding != Finding::nothing) return finding;
-  return here.compared >= params_.law.least && here.agrees >= params_.agrees ? Finding::in_order : Finding::nothing;
+  const bool agrees = here.compared >= params_.law.least && here.agrees >= params_.agrees && !may_be_late;
+  return agrees ? Finding::in_order : Finding::nothing;
 }
 
-MotionCheck::Finding MotionCheck::add(const SweepView& view) {
+MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
   trail_.push_back({view.stamp, view.odom_from_sensor});
   while (view.stamp - trail_.front().stamp > seconds(kTrail)) trail_.pop_front();
   if (!from_) {
@@ -91,14 +104,16 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view) {
   const bool is_far = way >= params_.least_way || turn >= params_.least_turn;
   if (is_far && view.stamp - compared_ >= seconds(params_.between)) {
     compared_ = view.stamp;
-    finding = count(compare(view));
+    finding = count(compare(view, may_be_late));
+    if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
+      finding = Finding::nothing;
   }
   const bool is_pending = last_ != Finding::nothing && last_ != Finding::in_order && row_ < params_.sure;
-  if (way > params_.farthest || turn > 2.0 * params_.least_turn ||
+  if (way > params_.farthest || turn > 2.0 * params_.proves_turn ||
       (view.stamp - from_->stamp > seconds(params_.longest) && !is_pending)) {
     unproven_ = finding == Finding::in_order ? 0.0 : unproven_ + way;
     from_ = view;
-    if (finding == Finding::nothing && unproven_ > params_.unproven_way) return Finding::in_order;
+    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::in_order;
   }
   return finding;
 }

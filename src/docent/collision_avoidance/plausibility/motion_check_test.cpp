@@ -69,7 +69,7 @@ TEST_F(MotionCheckTest, TwiceAsLongShowsWithinHalfAMetre) {
 
 TEST_F(MotionCheckTest, SweepsOfASecondAgoShow) {
   EXPECT_EQ(drive(1.0, 10), Finding::late);
-  EXPECT_NEAR(lag_found, 1.0, 0.5);
+  EXPECT_GE(lag_found, 0.75);  // from rest, older ones look the same
 }
 
 TEST_F(MotionCheckTest, AnOdometryThatIsALittleOffIsNoLie) {

@@ -35,7 +35,8 @@ struct RoomForTest {
   /// 180 beams over 180 degrees, ahead.
   SensorSweep sweep(double time, const Pose2& odom_from_sensor) {
     constexpr double kBeam = std::numbers::pi / 180.0;
-    SensorSweep sweep{time_from_seconds(time), {}, -0.5 * std::numbers::pi + 0.5 * kBeam, kBeam, min_range, max_range, {}};
+    SensorSweep sweep{
+        time_from_seconds(time), {}, -0.5 * std::numbers::pi + 0.5 * kBeam, kBeam, min_range, max_range, {}};
     for (int i = 0; i < 180; ++i) {
       const Point2 ray = unit(odom_from_sensor.theta + Angle::radians(sweep.first_bearing + i * kBeam));
       double range = std::numeric_limits<double>::infinity();
@@ -44,7 +45,8 @@ struct RoomForTest {
       for (const Disc& disc : discs)
         if (const auto hit = ray_distance(odom_from_sensor.position(), ray, disc.centre, disc.radius))
           range = std::min(range, *hit);
-      if (range < max_range) range = std::max(0.01, range + rng.normal(0.0, noise));
+      range =
+          range < max_range ? std::max(0.01, range + rng.normal(0.0, noise)) : std::numeric_limits<double>::infinity();
       sweep.ranges.push_back(static_cast<float>(range));
     }
     return sweep;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
+
 namespace docent::collision_avoidance {
 namespace {
 
@@ -15,6 +17,24 @@ BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSwee
   const auto stride = static_cast<std::size_t>(std::lround(view.bearing_step / sweep.bearing_step));
   const bool is_last = samples.end == view.ranges.size();
   return {samples.first * stride, is_last ? sweep.ranges.size() : samples.end * stride};
+}
+
+/// A view of what is wider than a person and straight.
+SweepView walls_of(const SweepView& view) {
+  std::vector<Point2> places;
+  std::vector<double> ranges;
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
+    if (!view.met(i)) continue;
+    places.push_back(view.place(i));
+    ranges.push_back(static_cast<double>(view.ranges[i]));
+    samples.push_back(i);
+  }
+  const std::vector<bool> straight = on_straight_pieces(places, ranges, view.bearing_step);
+  SweepView walls = view;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    if (!straight[k]) walls.ranges[samples[k]] = kNoReading;
+  return walls;
 }
 
 }  // namespace
@@ -31,8 +51,8 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       of_map_{params.sectors},
       near_{params.near} {}
 
-void ScannerWatch::convict(const std::string& what, Time when, bool by_sweeps) {
-  if (!lie_) lie_ = Lie{what, when, by_sweeps};
+void ScannerWatch::convict(Lie lie, Time when) {
+  if (!lie_) lie_ = std::move(lie);
   lie_->last_sign = when;
   is_proven_ = false;
 }
@@ -71,6 +91,20 @@ void ScannerWatch::judge_silence(const SweepView& view) {
   is_silence_explained_ = law.compared <= params_.gone * before_->answers;
 }
 
+void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
+  std::vector<float> sure = expected_;  // as the law was found: without what may well give no answer
+  for (float& range : sure)
+    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
+  const int by_lie = count_by_law(sure, view, lie_->law.scale, lie_->law.offset, params_.law);
+  const double enough = params_.returns * law.compared;
+  const bool is_as_before = law.as_expected >= enough && law.as_expected >= params_.clearly * by_lie;
+  if (by_lie >= enough && by_lie >= params_.clearly * law.as_expected) lie_->last_sign = view.stamp;
+  lies_ = is_as_before ? lies_ + 1 : 0;
+  if (lies_ < params_.sure) return;
+  acquit();
+  before_ = view;
+}
+
 void ScannerWatch::judge_onset(const SweepView& view) {
   if (form_.is_silent) return;
   if (!before_) {
@@ -80,21 +114,13 @@ void ScannerWatch::judge_onset(const SweepView& view) {
   const RangeLaw law = find_law(expected_, view, params_.law);
   const bool tells = law.compared >= params_.law.least;
   if (lie_) {
-    if (lie_->by_sweeps && tells && law.is_as_expected(params_.returns)) {
-      if (++lies_ >= params_.sure) {
-        acquit();
-        before_ = view;
-      }
-      return;
-    }
-    lies_ = 0;
-    if (lie_->by_sweeps && is_lie(law, params_.law)) lie_->last_sign = view.stamp;
+    if (lie_->by == Lie::By::sweeps && tells) follow_lie(view, law);
     return;
   }
   if (tells && is_lie(law, params_.law)) {
     if (++lies_ >= params_.sure) {
       lies_ = 0;
-      convict("the distances of the " + name_ + " are " + to_words(law), view.stamp, true);
+      convict({.what = "the distances of the " + name_ + " are " + to_words(law), .law = law}, view.stamp);
     }
     return;  // the sweep before stays what it is compared with
   }
@@ -103,22 +129,49 @@ void ScannerWatch::judge_onset(const SweepView& view) {
   if (!breaks || view.stamp - before_->stamp > seconds(params_.onset)) before_ = view;
 }
 
+void ScannerWatch::look_for_walls(const SweepView& view) {
+  if (!walls_) {
+    walls_ = walls_of(view);
+    return;
+  }
+  const Pose2 now_from_then = inverse(view.odom_from_sensor) * walls_->odom_from_sensor;
+  const double turn = std::abs(now_from_then.theta.radians());
+  const double way = norm(now_from_then.position());
+  const bool is_other = turn > params_.walls_least_turn || way > params_.walls_least_way;
+  const bool is_old = turn > params_.walls_turn || way > params_.walls_way ||
+                      view.stamp - walls_->stamp > seconds(params_.walls_longest);
+  if (is_other && !is_old) {
+    expect(*walls_, now_from_then, view, expected_);
+    sectors_.look_for(view, expected_, params_.walls_patience);
+  }
+  if (is_old) walls_ = walls_of(view);
+}
+
 void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
-    convict("the " + name_ + " repeats old sweeps", view.stamp, false);
-  switch (motion_.add(view)) {
+    convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+  switch (motion_.add(view, lie_ && lie_->is_late)) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();
-      convict("the distances of the " + name_ + " do not fit the motion: " + to_words(law), view.stamp, false);
+      convict({.what = "the distances of the " + name_ + " do not fit the motion: " + to_words(law),
+               .by = Lie::By::motion,
+               .law = law},
+              view.stamp);
       break;
     }
     case MotionCheck::Finding::late:
-      convict("the " + name_ + " gives old sweeps: they do not fit the motion", view.stamp, false);
+      convict({.what = "the " + name_ + " gives old sweeps: they do not fit the motion",
+               .by = Lie::By::motion,
+               .is_late = true},
+              view.stamp);
       break;
     case MotionCheck::Finding::in_order:
-      if (!lie_) is_proven_ = true;
-      else if (!lie_->by_sweeps && view.stamp - lie_->last_sign > seconds(params_.stands)) acquit();
+      if (!lie_) {
+        is_proven_ = true;
+      } else if (may_try() && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+        acquit();
+      }
       break;
     case MotionCheck::Finding::nothing:
       break;
@@ -130,9 +183,16 @@ void ScannerWatch::judge_by_map(const SweepView& view) {
   if (!found || !found->is_known) return;
   map_said_ = view.stamp;
   map_has_nothing_ = found->is_nothing_near;
-  if (found->lie) convict("the distances of the " + name_ + " are " + to_words(*found->lie), view.stamp, false);
-  if (found->in_order && !lie_) is_proven_ = true;
-  if (found->in_order && lie_ && !lie_->by_sweeps && view.stamp - lie_->last_sign > seconds(params_.stands)) acquit();
+  if (found->lie) {
+    convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
+             .by = Lie::By::map,
+             .law = *found->lie},
+            view.stamp);
+  } else if (found->in_order && !lie_) {
+    is_proven_ = true;
+  } else if (found->in_order && !lie_->is_late && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+    acquit();
+  }
   of_map_.forget();
   if (found->fits) of_map_.look_for(view, map_.expected(), params_.map_patience);
   of_map_row_ = of_map_.runs().empty() ? 0 : of_map_row_ + 1;
@@ -173,6 +233,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base) 
     judge_motion(view, sweep, odom_from_base);
     judge_by_map(view);
     judge_onset(view);
+    if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);
   return sweep;
@@ -184,8 +245,8 @@ std::optional<Complaint> ScannerWatch::complaint() const {
     return Complaint{0.0, "no beam of the " + name_ + " ends anywhere"};
   if (form_fault_ == FormFault::covered) return Complaint{0.0, "something covers the " + name_};
   if (lie_) {
-    const bool may_try = newest_ - lie_->last_sign > seconds(params_.stands);
-    return Complaint{may_try ? params_.trial_speed : 0.0, lie_->what};
+    const bool tries = may_try() && newest_ - lie_->last_sign > seconds(params_.stands);
+    return Complaint{tries ? params_.trial_speed : 0.0, lie_->what};
   }
   if (sectors_.is_any_sure())
     return Complaint{params_.crippled_speed, "the " + name_ + " sees nothing in a part of its field"};

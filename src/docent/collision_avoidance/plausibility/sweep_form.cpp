@@ -29,12 +29,15 @@ class ReadingCount {
 bool has_wrong_units(const SensorSweep& sweep, const SweepFormParams& params) {
   ReadingCount beyond;
   ReadingCount tiny;
+  std::size_t within = 0;
   for (const float range : sweep.ranges) {
     if (!std::isfinite(range)) continue;
     if (range > params.beyond * sweep.max_range) beyond.add(range);
+    if (range >= sweep.min_range && range < sweep.max_range) ++within;
     if (range > 0.0F && range < params.tiny) tiny.add(range);
   }
-  return beyond.are_many(params.many_beyond, sweep.ranges.size(), params.several) ||
+  const bool is_any_within = static_cast<double>(within) > params.few_within * static_cast<double>(sweep.ranges.size());
+  return (!is_any_within && beyond.are_many(params.many_beyond, sweep.ranges.size(), params.several)) ||
          tiny.are_many(params.many_tiny, sweep.ranges.size(), params.several);
 }
 
@@ -89,8 +92,8 @@ SweepForm form_of(const SensorSweep& sweep, double nearest, const BaseLimits& li
   if (form.has_wrong_units) return form;
   form.is_covered = is_covered(sweep, limits, params);
   const auto beams = static_cast<double>(sweep.ranges.size());
-  const auto silent = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
-                                    [&](float range) { return is_no_answer(range, sweep); });
+  const auto silent =
+      std::count_if(sweep.ranges.begin(), sweep.ranges.end(), [&](float range) { return is_no_answer(range, sweep); });
   const auto answers = std::count_if(sweep.ranges.begin(), sweep.ranges.end(),
                                      [&](float range) { return range >= sweep.min_range && range < sweep.max_range; });
   form.is_silent = static_cast<double>(silent) >= params.silent_share * beams &&

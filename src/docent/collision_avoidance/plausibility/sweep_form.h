@@ -9,12 +9,13 @@
 namespace docent::collision_avoidance {
 
 struct SweepFormParams {
-  double beyond = 2.0;         ///< of its own reach: no scanner measures so far; a foot is 3.3, a centimetre 100 of them
-  double many_beyond = 0.1;    ///< of the beams
-  double tiny = 0.03;          ///< [m] and less all round: metres were meant to be something else
-  double many_tiny = 0.5;      ///< of the beams
-  int several = 5;             ///< different readings: one that is always the same is a driver's way to say "nothing"
-  double few_answers = 0.01;   ///< of the beams: the strays of a scanner that meets nothing
+  double beyond = 8.0;        ///< of its own reach: a driver may state too little, and a centimetre is 100 times as far
+  double many_beyond = 0.1;   ///< of the beams,
+  double few_within = 0.1;    ///< and at most so many end within reach
+  double tiny = 0.03;         ///< [m] and less all round: metres were meant to be something else
+  double many_tiny = 0.5;     ///< of the beams
+  int several = 5;            ///< different readings: one that is always the same is a driver's way to say "nothing"
+  double few_answers = 0.01;  ///< of the beams: the strays of a scanner that meets nothing
   double silent_share = 0.65;  ///< of the beams at least say that nothing is there; else too few readings are named
   double inside = 0.05;        ///< [m] within the body: there is nothing but what covers the scanner
   double covered = 0.26;       ///< [rad] 15 degrees of it
@@ -31,10 +32,10 @@ struct BeamRun {
 
 /// What a single sweep shows of the scanner that took it.
 struct SweepForm {
-  bool has_wrong_units = false;       ///< readings far beyond its own reach, or all of them within a hand's breadth
-  bool is_covered = false;            ///< something ends a part of the beams within the body
-  bool is_silent = false;             ///< it says that nothing is there, all round
-  std::vector<BeamRun> too_near{};    ///< "nothing there" between two readings that are hardly farther than min_range
+  bool has_wrong_units = false;     ///< readings far beyond its own reach, or all of them within a hand's breadth
+  bool is_covered = false;          ///< something ends a part of the beams within the body
+  bool is_silent = false;           ///< it says that nothing is there, all round
+  std::vector<BeamRun> too_near{};  ///< "nothing there" between two readings that are hardly farther than min_range
 };
 
 /// Whether what is too near to the scanner to be seen can be outside the body. @param nearest  [m] that it sees

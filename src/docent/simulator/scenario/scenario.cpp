@@ -1,6 +1,7 @@
 #include "docent/simulator/scenario/scenario.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +13,11 @@ namespace {
 
 constexpr double kFar = 1e5;      // [m]
 constexpr double kLongest = 1e8;  // [s]
+
+constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
+                                                         "sonar",       "odom",       "tactile",    "infrared"};
+constexpr std::array kLies{"units",  "silent", "sector", "too_near", "blind_near",
+                           "offset", "scaled", "stale",  "looped"};
 
 class EventReader {
  public:
@@ -165,6 +171,13 @@ class EventReader {
   [[nodiscard]] auto degrees_into(double& value) const {
     return [this, &value](const YAML::Node& node) { value = Angle::degrees(number(node, -3600.0, 3600.0)).radians(); };
   }
+  [[nodiscard]] auto into(Sensor& value) const {
+    return [this, &value](const YAML::Node& node) {
+      std::vector<std::pair<std::string, Sensor>> sensors;
+      for (std::size_t i = 0; i < kSensors; ++i) sensors.emplace_back(kSensorNames[i], static_cast<Sensor>(i));
+      choice<Sensor>(node, sensors, value);
+    };
+  }
   [[nodiscard]] auto into(Point2& value) const {
     return [this, &value](const YAML::Node& node) { value = point(node); };
   }
@@ -190,19 +203,7 @@ class EventReader {
   [[nodiscard]] SensorFault sensor_fault(const YAML::Node& node) const {
     SensorFault event;
     fields(node,
-           {{"sensor",
-             [&](const YAML::Node& at) {
-               choice<Sensor>(at,
-                              {{"laser_front", Sensor::laser_front},
-                               {"laser_rear", Sensor::laser_rear},
-                               {"laser_left", Sensor::laser_left},
-                               {"laser_right", Sensor::laser_right},
-                               {"sonar", Sensor::sonar},
-                               {"odom", Sensor::odom},
-                               {"tactile", Sensor::tactile},
-                               {"infrared", Sensor::infrared}},
-                              event.sensor);
-             }},
+           {{"sensor", into(event.sensor)},
             {"kind",
              [&](const YAML::Node& at) {
                choice<FaultKind>(at,
@@ -226,34 +227,16 @@ class EventReader {
   }
   [[nodiscard]] ScannerLie scanner_lie(const YAML::Node& node) const {
     ScannerLie event;
+    std::vector<std::pair<std::string, Lie>> lies;
+    for (std::size_t i = 0; i < kLies.size(); ++i) lies.emplace_back(kLies[i], static_cast<Lie>(i));
     fields(node,
-           {{"sensor",
-             [&](const YAML::Node& at) {
-               choice<Sensor>(at,
-                              {{"laser_front", Sensor::laser_front},
-                               {"laser_rear", Sensor::laser_rear},
-                               {"laser_left", Sensor::laser_left},
-                               {"laser_right", Sensor::laser_right}},
-                              event.sensor);
-             }},
-            {"kind",
-             [&](const YAML::Node& at) {
-               choice<Lie>(at,
-                           {{"units", Lie::units},
-                            {"silent", Lie::silent},
-                            {"sector", Lie::sector},
-                            {"too_near", Lie::too_near},
-                            {"blind_near", Lie::blind_near},
-                            {"offset", Lie::offset},
-                            {"scaled", Lie::scaled},
-                            {"stale", Lie::stale},
-                            {"looped", Lie::looped}},
-                           event.lie);
-             }},
+           {{"sensor", into(event.sensor)},
+            {"kind", [&](const YAML::Node& at) { choice<Lie>(at, lies, event.lie); }},
             {"amount", [&](const YAML::Node& at) { event.amount = number(at, -100.0, 1e5); }},
             {"bearing", degrees_into(event.bearing)},
             {"for", into(event.duration, 0.0, kLongest)}},
            {"sensor", "kind"});
+    if (event.sensor > Sensor::laser_right) fault(kind_at_, "only lasers lie");
     return event;
   }
   [[nodiscard]] Stool stool(const YAML::Node& node) const {
