@@ -58,7 +58,8 @@ void MapCheck::expect_at(const SweepView& view, const Pose2& map_from_sensor, st
 bool MapCheck::is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const {
   const double needed = static_cast<double>(law.as_law) / law.compared - params_.as_well;
   std::vector<float> expected;
-  for (const double turn : {-params_.off_turn, -0.5 * params_.off_turn, 0.0, 0.5 * params_.off_turn, params_.off_turn}) {
+  for (const double turn :
+       {-params_.off_turn, -0.5 * params_.off_turn, 0.0, 0.5 * params_.off_turn, params_.off_turn}) {
     for (double x = -params_.off; x <= params_.off; x += params_.off_step) {
       for (double y = -params_.off; y <= params_.off; y += params_.off_step) {
         expect_at(view, map_from_sensor * Pose2{x, y, Angle::radians(turn)}, 3 * params_.every, expected);
@@ -79,9 +80,10 @@ std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
   const RangeLaw law = find_law(expected_, view, params_.law);
   Finding finding;
   finding.is_known = true;
-  const auto samples = std::count_if(expected_.begin(), expected_.end(), [](float range) { return !std::isnan(range); });
-  finding.is_nothing_near = samples >= params_.law.least &&
-                            law.compared <= params_.nothing_near * static_cast<double>(samples);
+  const auto samples =
+      std::count_if(expected_.begin(), expected_.end(), [](float range) { return !std::isnan(range); });
+  finding.is_nothing_near =
+      samples >= params_.law.least && law.compared <= params_.nothing_near * static_cast<double>(samples);
   finding.in_order = law.compared >= params_.law.least && law.is_as_expected(params_.fits);
   int answers = 0;
   for (std::size_t i = 0; i < expected_.size(); ++i) answers += view.met(i) && expected_[i] < view.max_range ? 1 : 0;

@@ -10,17 +10,17 @@
 namespace docent::collision_avoidance {
 
 struct NearThingsParams {
-  double comes = 0.25;         ///< [m] beyond min_range: what was so near may be nearer in the next sweep
-  double step = 1.6;           ///< [m/s] with which somebody may come nearer
-  double goes = 0.15;          ///< [m] beyond min_range: what was nearer and went away must have been seen again
-  double beside = 0.03;        ///< [rad] to each side, of the beams that would meet it
-  double same = 0.05;          ///< [m] such places are one
-  int sure = 2;                ///< sweeps until it is named, or dropped
-  int several = 3;             ///< places that have gone at once
-  double longest = 30.0;       ///< [s] a place is held
-  double within = 1.2;         ///< [m] a scanner may be blind, whatever min_range it states
-  double flank = 0.1;          ///< [m] beyond the readings beside it a gap's thing was before
-  double gap_known = 0.6;      ///< of a gap's samples were that near
+  double comes = 0.25;     ///< [m] beyond min_range: what was so near may be nearer in the next sweep
+  double step = 1.6;       ///< [m/s] with which somebody may come nearer
+  double goes = 0.15;      ///< [m] beyond min_range: what was nearer and went away must have been seen again
+  double beside = 0.03;    ///< [rad] to each side, of the beams that would meet it
+  double same = 0.05;      ///< [m] such places are one
+  int sure = 2;            ///< sweeps until it is named, or dropped
+  int several = 3;         ///< places that have gone at once
+  double longest = 30.0;   ///< [s] a place is held
+  double within = 1.2;     ///< [m] a scanner may be blind, whatever min_range it states
+  double flank = 0.1;      ///< [m] beyond the readings beside it a gap's thing was before
+  double gap_known = 0.6;  ///< of a gap's samples were that near
 };
 
 /// Things that came up to a scanner's min_range and of which it then said that nothing is there: they are, until beams

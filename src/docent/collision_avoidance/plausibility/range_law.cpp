@@ -26,9 +26,10 @@ int count_by_law(std::span<const float> expected, const SweepView& view, double 
     const double tolerance = params.noise + params.per_metre * should;
     const bool may_be_beyond = should > params.surely_within * view.max_range;
     if (view.met(i) || view.nearest[i] < kNoAnswer) {
-      const bool is_between = should >= static_cast<double>(view.nearest[i]) - tolerance &&
-                              (view.met(i) ? should <= static_cast<double>(view.farthest[i]) + tolerance
-                                           : may_be_beyond || should <= static_cast<double>(view.nearest[i]) + tolerance);
+      const bool is_between =
+          should >= static_cast<double>(view.nearest[i]) - tolerance &&
+          (view.met(i) ? should <= static_cast<double>(view.farthest[i]) + tolerance
+                       : may_be_beyond || should <= static_cast<double>(view.nearest[i]) + tolerance);
       if (is_between) ++count;
     } else if (may_be_beyond) {
       ++count;

@@ -8,14 +8,14 @@
 namespace docent::collision_avoidance {
 
 struct RangeLawParams {
-  double noise = 0.08;           ///< [m] between a reading and what is expected, near by,
-  double per_metre = 0.02;       ///< [m/m] and more with the distance: noise, and bearings between the samples
-  double surely_within = 0.85;   ///< of the scanner's reach: what is expected farther may well give no answer
-  int least = 24;                ///< samples; fewer tell nothing
-  double least_share = 0.65;     ///< of them must follow a law: the rest are people and places that come into view,
-  double most_as_expected = 0.4; ///< and at most so many be as they were expected
-  double least_offset = 0.15;    ///< [m] a smaller one is noise, or a little error of the mount
-  double least_factor = 1.2;     ///< likewise, or its inverse: what lies 1 m away is wrong by the least offset and more
+  double noise = 0.08;            ///< [m] between a reading and what is expected, near by,
+  double per_metre = 0.02;        ///< [m/m] and more with the distance: noise, and bearings between the samples
+  double surely_within = 0.85;    ///< of the scanner's reach: what is expected farther may well give no answer
+  int least = 24;                 ///< samples; fewer tell nothing
+  double least_share = 0.65;      ///< of them must follow a law: the rest are people and places that come into view,
+  double most_as_expected = 0.4;  ///< and at most so many be as they were expected
+  double least_offset = 0.15;     ///< [m] a smaller one is noise, or a little error of the mount
+  double least_factor = 1.2;  ///< likewise, or its inverse: what lies 1 m away is wrong by the least offset and more
 };
 
 /// How readings depend on what was expected: reading = scale * expected + offset.

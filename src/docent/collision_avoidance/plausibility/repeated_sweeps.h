@@ -11,11 +11,11 @@
 namespace docent::collision_avoidance {
 
 struct RepeatedSweepsParams {
-  double memory = 60.0;       ///< [s] older sweeps are forgotten
-  int least_readings = 9;     ///< noisy readings that were all repeated: fewer prove nothing
-  int in_a_row = 2;           ///< repeats: a scanner without noise may see the same again by chance
-  double least_way = 0.015;   ///< [m] between the two places: at rest a scanner without noise says the same
-  double least_turn = 0.02;   ///< [rad] likewise
+  double memory = 60.0;      ///< [s] older sweeps are forgotten
+  int least_readings = 9;    ///< noisy readings that were all repeated: fewer prove nothing
+  int in_a_row = 2;          ///< repeats: a scanner without noise may see the same again by chance
+  double least_way = 0.015;  ///< [m] between the two places: at rest a scanner without noise says the same
+  double least_turn = 0.02;  ///< [rad] likewise
 };
 
 /// Finds sweeps that are, to the bit, one of the last minute's, taken elsewhere: a driver that hands out old ones with

@@ -87,6 +87,8 @@ void ScannerWatch::judge_silence(const SweepView& view) {
   }
   if (!before_) return;
   // What was met last must by now lie out of reach, or out of the field.
+  if (view.stamp - before_->stamp > seconds(params_.people_stay))
+    expect(walls_of(*before_), inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
   const RangeLaw law = find_law(expected_, view, params_.law);
   is_silence_explained_ = law.compared <= params_.gone * before_->answers;
 }

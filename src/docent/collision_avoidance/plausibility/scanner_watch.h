@@ -36,6 +36,7 @@ struct ScannerWatchParams {
   int sure = 2;                   ///< sweeps that say the same
   int good_again = 3;             ///< sweeps without a fault of form until it is forgotten
   double gone = 0.15;             ///< of the samples at most should still meet something: a silence is no wonder
+  double people_stay = 3.0;       ///< [s] then those who were all that was seen may have left; walls have not
   double silence_map = 3.0;       ///< [s] in which the map's word on a silent sweep holds
   int map_silences = 3;           ///< comparisons with the map in which a sector is blind
   double map_patience = 0.75;     ///< [s] as if the map's sector had been seen so long ago: a wider one is asked for

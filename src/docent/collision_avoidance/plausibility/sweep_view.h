@@ -23,7 +23,8 @@ struct SweepView {
   double min_range = 0.0;      ///< [m]
   double max_range = 0.0;      ///< [m]
   std::vector<float> ranges;   ///< [samples] [m]; kNoAnswer; NaN: no reading
-  std::vector<float> nearest;  ///< [samples] [m] of a sample and the two beside it; kNoAnswer where none of them answers
+  std::vector<float>
+      nearest;  ///< [samples] [m] of a sample and the two beside it; kNoAnswer where none of them answers
   std::vector<float> farthest;  ///< [samples] [m] likewise; kNoAnswer where one of them does not answer
   int answers = 0;              ///< samples that met something
 
@@ -42,8 +43,8 @@ struct SweepView {
 /// @param most  samples
 [[nodiscard]] SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::size_t most = 180);
 
-/// The ranges [m] that the samples of `like` would have if what `seen` met stood still: [samples], NaN where `seen` says
-/// nothing of a sample.
+/// The ranges [m] that the samples of `like` would have if what `seen` met stood still: [samples], NaN where `seen`
+/// says nothing of a sample.
 /// @param like_from_seen  from the sensor then to the sensor now
 /// O(samples).
 void expect(const SweepView& seen, const Pose2& like_from_seen, const SweepView& like, std::vector<float>& expected);

@@ -16,8 +16,17 @@ constexpr double kLongest = 1e8;  // [s]
 
 constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
                                                          "sonar",       "odom",       "tactile",    "infrared"};
+constexpr std::array kFaults{"dead", "frozen", "half", "late", "short", "deaf", "storm"};
 constexpr std::array kLies{"units",  "silent", "sector", "too_near", "blind_near",
                            "offset", "scaled", "stale",  "looped"};
+
+/// [name, value] of an enumeration whose names stand in its order.
+template <class T, std::size_t N>
+std::vector<std::pair<std::string, T>> named(const std::array<const char*, N>& names) {
+  std::vector<std::pair<std::string, T>> pairs;
+  for (std::size_t i = 0; i < N; ++i) pairs.emplace_back(names[i], static_cast<T>(i));
+  return pairs;
+}
 
 class EventReader {
  public:
@@ -172,11 +181,7 @@ class EventReader {
     return [this, &value](const YAML::Node& node) { value = Angle::degrees(number(node, -3600.0, 3600.0)).radians(); };
   }
   [[nodiscard]] auto into(Sensor& value) const {
-    return [this, &value](const YAML::Node& node) {
-      std::vector<std::pair<std::string, Sensor>> sensors;
-      for (std::size_t i = 0; i < kSensors; ++i) sensors.emplace_back(kSensorNames[i], static_cast<Sensor>(i));
-      choice<Sensor>(node, sensors, value);
-    };
+    return [this, &value](const YAML::Node& node) { choice<Sensor>(node, named<Sensor>(kSensorNames), value); };
   }
   [[nodiscard]] auto into(Point2& value) const {
     return [this, &value](const YAML::Node& node) { value = point(node); };
@@ -204,34 +209,20 @@ class EventReader {
     SensorFault event;
     fields(node,
            {{"sensor", into(event.sensor)},
-            {"kind",
-             [&](const YAML::Node& at) {
-               choice<FaultKind>(at,
-                                 {{"dead", FaultKind::dead},
-                                  {"frozen", FaultKind::frozen},
-                                  {"half", FaultKind::half},
-                                  {"late", FaultKind::late},
-                                  {"short", FaultKind::near},
-                                  {"deaf", FaultKind::deaf},
-                                  {"storm", FaultKind::storm}},
-                                 event.kind);
-             }},
+            {"kind", [&](const YAML::Node& at) { choice<FaultKind>(at, named<FaultKind>(kFaults), event.kind); }},
             {"for", into(event.duration, 0.0, kLongest)},
             {"delay", into(event.delay, 0.01, 60.0)}},
            {"sensor", "kind"});
-    const bool is_of_ranges =
-        event.kind == FaultKind::near || event.kind == FaultKind::deaf || event.kind == FaultKind::storm;
+    const bool is_of_ranges = event.kind >= FaultKind::near;
     if (event.sensor == Sensor::odom && is_of_ranges) fault(kind_at_, "odometry has no ranges to be wrong");
     if (event.sensor == Sensor::tactile && is_of_ranges) fault(kind_at_, "the tactile ring has no ranges to be wrong");
     return event;
   }
   [[nodiscard]] ScannerLie scanner_lie(const YAML::Node& node) const {
     ScannerLie event;
-    std::vector<std::pair<std::string, Lie>> lies;
-    for (std::size_t i = 0; i < kLies.size(); ++i) lies.emplace_back(kLies[i], static_cast<Lie>(i));
     fields(node,
            {{"sensor", into(event.sensor)},
-            {"kind", [&](const YAML::Node& at) { choice<Lie>(at, lies, event.lie); }},
+            {"kind", [&](const YAML::Node& at) { choice<Lie>(at, named<Lie>(kLies), event.lie); }},
             {"amount", [&](const YAML::Node& at) { event.amount = number(at, -100.0, 1e5); }},
             {"bearing", degrees_into(event.bearing)},
             {"for", into(event.duration, 0.0, kLongest)}},

@@ -130,6 +130,10 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
      "s.yaml:3: expected one of laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared, "
      "found 'nose'"},
+    {"events:\n  - at: 1\n    lie: {sensor: sonar, kind: silent}", "s.yaml:3: only lasers lie"},
+    {"events:\n  - at: 1\n    lie: {sensor: laser_rear, kind: white}",
+     "s.yaml:3: expected one of units, silent, sector, too_near, blind_near, offset, scaled, stale, looped, found "
+     "'white'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: sad}",
      "s.yaml:3: expected one of dead, frozen, half, late, short, deaf, storm, found 'sad'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: deaf}", "s.yaml:3: odometry has no ranges to be wrong"},
