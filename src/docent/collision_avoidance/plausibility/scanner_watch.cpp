@@ -100,7 +100,9 @@ void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
   const int by_lie = count_by_law(sure, view, lie_->law.scale, lie_->law.offset, params_.law);
   const double enough = params_.returns * law.compared;
   const bool is_as_before = law.as_expected >= enough && law.as_expected >= params_.clearly * by_lie;
-  if (by_lie >= enough && by_lie >= params_.clearly * law.as_expected) lie_->last_sign = view.stamp;
+  // A robot that was carried farther from a wall sees a factor, too: that is for the motion to find out.
+  const bool lasts = by_lie >= enough && by_lie >= params_.clearly * law.as_expected;
+  if (lasts && !may_try()) lie_->last_sign = view.stamp;
   lies_ = is_as_before ? lies_ + 1 : 0;
   if (lies_ < params_.sure) return;
   acquit();
