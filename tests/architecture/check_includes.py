@@ -33,7 +33,7 @@ FLOORS = {
     "collision_avoidance": [
         {"body"},
         {"obstacle_field", "dynamic_window", "watches", "virtual_measurements"},
-        {"local_planner"},
+        {"local_planner", "plausibility"},
         {"avoider"},
     ],
     "mapping": [

@@ -8,6 +8,7 @@
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
+#include "docent/recording/recorded_ranges.h"
 #include "docent/recording/rosbag2_database.h"
 
 namespace docent::recording {
@@ -61,6 +62,7 @@ class RosLaserLogBuilder {
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  ///< by child frame
   std::string base_frame_;
   std::map<std::string, Refused> refused_;  ///< by topic
+  RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
   LaserLog log_;
 };
 

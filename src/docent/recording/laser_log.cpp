@@ -7,6 +7,7 @@
 #include "docent/recording/carmen_log.h"
 #include "docent/recording/mcap/format.h"
 #include "docent/recording/mcap/reader.h"
+#include "docent/recording/recorded_ranges.h"
 #include "docent/recording/ros_laser_log.h"
 
 namespace docent::recording {
@@ -37,6 +38,17 @@ Result<LaserLog> read_ros_log(const fs::path& path, const std::vector<fs::path>&
   }
   auto log = builder.finish();
   if (!log) return fail(path.string() + ": " + log.error().message);
+  return log;
+}
+
+/// CARMEN's.
+Result<LaserLog> read_text_log(const fs::path& path) {
+  auto log = read_carmen_log(path);
+  if (!log) return log;
+  RecordedRanges ranges;
+  for (const LoggedScan& scan : log->scans)
+    ranges.add(scan.rear ? "the rear laser" : "the front laser", scan.ranges, log->max_range);
+  if (const auto judged = ranges.judge(log->notes); !judged) return fail(path.string() + ": " + judged.error().message);
   return log;
 }
 
@@ -77,7 +89,7 @@ Result<LaserLog> read_laser_log(const fs::path& path, bool with_sonars) {
     return read_ros_log(path, {path}, with_sonars);
   if (begins_with(path, kSqlite.data(), kSqlite.size()))
     return fail(path.string() + ": a database; the name of a rosbag2 database ends in .db3");
-  return read_carmen_log(path);
+  return read_text_log(path);
 }
 
 }  // namespace docent::recording

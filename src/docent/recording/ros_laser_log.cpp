@@ -70,7 +70,9 @@ Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
     if (!scan) return damaged();
     if (scan->ranges.empty()) return {};
     *scan = in_order(std::move(*scan));
-    if (admits(*scan, message.topic)) add_scan(*scan, message.time);
+    if (!admits(*scan, message.topic)) return {};
+    ranges_.add(message.topic, scan->ranges, static_cast<double>(scan->range_max));
+    add_scan(*scan, message.time);
   } else if (with_sonars_ && message.type == sensor_msgs::Range::kType) {
     const auto range = decode_cdr<sensor_msgs::Range>(message.data);
     if (!range) return damaged();
@@ -207,6 +209,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
   if (scans_.empty())
     return fail(refused.empty() ? "holds no laser scan" : "holds no laser scan that is fit; refused: " + refused);
   if (!refused.empty()) log_.notes.push_back("messages that cannot be were left out: " + refused);
+  if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());
   const auto most = std::max_element(odometry_.begin(), odometry_.end(),
                                      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
   if (most == odometry_.end()) {

@@ -93,7 +93,9 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          bus.publisher(topics::scan_topic(scanner.name)),
                          {},
                          {},
-                         0});
+                         {},
+                         0,
+                         {}});
     scanners_.back().laser.see_body(hardware.posts);
     beams_ += scanners_.back().laser.params().beams;
   }
@@ -112,6 +114,11 @@ void Instruments::set_fault(const SensorFault& fault, Time now) {
   const Time until =
       fault.duration > 0.0 ? now + seconds(fault.duration) : Time{std::numeric_limits<std::int64_t>::max()};
   faults_[static_cast<std::size_t>(fault.sensor)] = Fault{fault.kind, until, fault.delay};
+}
+
+void Instruments::set_lie(const ScannerLie& lie, Time now) {
+  for (Scanner& scanner : scanners_)
+    if (scanner.sensor == lie.sensor) scanner.lies.begin(lie, now);
 }
 
 const Instruments::Fault* Instruments::fault_of(Sensor sensor, Time now) const {
@@ -206,6 +213,8 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
     ++scanner.blocked;
     ++scanner.met[static_cast<std::size_t>(person)];
   }
+  scanner.lies.tell(now, {message.ranges, message.range_min, message.range_max, message.angle_min,
+                          message.angle_increment});
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 

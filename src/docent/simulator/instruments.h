@@ -12,6 +12,7 @@
 #include "docent/simulator/scenario/scenario.h"
 #include "docent/simulator/sensing/infrared.h"
 #include "docent/simulator/sensing/laser.h"
+#include "docent/simulator/sensing/scanner_lies.h"
 #include "docent/simulator/sensing/sonar.h"
 #include "docent/transport/bus.h"
 
@@ -29,6 +30,8 @@ class Instruments {
     for (Scanner& scanner : scanners_) scanner.laser.limit_reach(range);
   }
   void set_fault(const SensorFault& fault, Time now);
+  /// Of a laser that the robot has, from now on.
+  void set_lie(const ScannerLie& lie, Time now);
 
   /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.
   void jump(const Pose2& base_from_base, double over);
@@ -59,6 +62,7 @@ class Instruments {
     std::optional<sensor_msgs::LaserScan> last;
     std::vector<int> met;  ///< [people] beams of the last sweep
     int blocked = 0;       ///< beams of the last sweep that met people
+    ScannerLies lies;
   };
   struct Fault {
     FaultKind kind;

@@ -98,6 +98,11 @@ void SimulatedMuseum::Impl::play(const SensorFault& event) {
   offer("fault", kSensorNames[static_cast<std::size_t>(event.sensor)]);
 }
 
+void SimulatedMuseum::Impl::play(const ScannerLie& event) {
+  instruments_.set_lie(event, time_);
+  offer("lie", "");
+}
+
 void SimulatedMuseum::Impl::play(const Stool& event) {
   Polygon outline;
   for (int i = 0; i < 8; ++i) outline.push_back(event.at + event.radius * unit(Angle::degrees(45.0 * i)));

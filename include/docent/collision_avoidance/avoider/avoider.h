@@ -88,6 +88,11 @@ class Avoider {
   void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
   /// What localization believes: it slows the robot where that is little (safety rule 4).
   void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
+  /// The map that lasers are compared with, where the robot believes to be; before the first sweep.
+  void know_map(const std::shared_ptr<const OccupancyGrid>& map) { inputs_.know_map(limits_, map); }
+  /// The best hypothesis of a belief. @param raw_from_robot  odometry at its stamp, as the base says it
+  /// @param mass  of the belief there, 0..1
+  void add_place(Time now, Time stamp, const Pose2& map_from_robot, const Pose2& raw_from_robot, double mass);
   void set_target(Time now, Time stamp, AvoiderTarget target);  ///< where to go from now on
   /// An operator steers: as long as their word is fresh, no target counts. What must not be touched stays so.
   void steer_by_hand(Time now, const HandSteering& wish) { hand_ = {wish, now}; }

@@ -40,6 +40,7 @@ void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   inputs_.hear_sweep(now, sweep.stamp, sensor);
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
+  if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base);
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
 }
 
@@ -91,6 +92,11 @@ void Avoider::add_virtual(Time now, VirtualSweep sweep) {
   surroundings_.virtual_obstacles().take(std::move(sweep), odom_from_base);
 }
 
+void Avoider::add_place(Time now, Time stamp, const Pose2& map_from_robot, const Pose2& raw_from_robot, double mass) {
+  const Time taken = local_time_.receive_handed_on("belief", now, stamp);
+  inputs_.believe(taken, map_from_robot * inverse(unbroken_.odom_from_raw(taken) * raw_from_robot), mass);
+}
+
 void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
   if (odometry_.empty()) return;
   const Time taken = local_time_.receive_handed_on("person beams", now, stamp);
@@ -140,6 +146,7 @@ void Avoider::cap_by_knowledge(Time now, SpeedCap& cap) const {
   if (!params_.watches) return;
   if (const auto found = complaint(now)) cap.lower(found->max_speed, found->reason);
   inputs_.cap_by_age(now, max_speed_, cap);
+  inputs_.cap_by_proof(cap);
   if (const auto measured = surroundings_.virtual_obstacles().stamp())
     inputs_.cap_by_position(now, odometry_.driven_since(*measured), max_speed_, cap);
 }

@@ -8,7 +8,8 @@ namespace docent::collision_avoidance {
 std::optional<Complaint> InputWatches::complaint_of_laser(Time now, std::size_t index,
                                                           const ObstacleMemory& memory) const {
   const std::string& name = lasers_[index];
-  auto found = complaint_of(sweeps_[index], now, "sweep of the " + name);
+  // What is said of its sweeps comes first: readings that are not believed are missing, too.
+  auto found = worse(scanners_[index].complaint(), complaint_of(sweeps_[index], now, "sweep of the " + name));
   if (memory.is_frozen(index)) found = worse(Complaint{0.0, "the " + name + " is frozen"}, found);
   const double missing = memory.invalid_share(index);
   if (!found && missing > params_.nearly_all) return Complaint{0.0, "the " + name + " gives no readings"};
@@ -17,9 +18,20 @@ std::optional<Complaint> InputWatches::complaint_of_laser(Time now, std::size_t 
   return found;
 }
 
+std::optional<Complaint> InputWatches::complaint_of_lasers(Time now, const ObstacleMemory& memory) const {
+  std::optional<Complaint> found;
+  for (std::size_t i = 0; i < lasers_.size(); ++i) {
+    auto of_this = complaint_of_laser(now, i, memory);
+    if (found && of_this) of_this->reason = found->reason + "; " + of_this->reason;  // each is named
+    if (of_this) of_this->max_speed = std::min(of_this->max_speed, found ? found->max_speed : of_this->max_speed);
+    if (of_this) found = std::move(of_this);
+  }
+  return found;
+}
+
 std::optional<Complaint> InputWatches::complaint(Time now, const ObstacleMemory& memory) const {
   auto found = odometry_.complaint(now);
-  for (std::size_t i = 0; i < lasers_.size(); ++i) found = worse(found, complaint_of_laser(now, i, memory));
+  found = worse(std::move(found), complaint_of_lasers(now, memory));
   if (params_.needs_sonar) found = worse(found, sonars_.complaint(now, true));
   found = worse(found, tactile_.complaint(now, params_.has_tactile));
   found = worse(found, infrareds_.complaint(now, params_.has_infrared));
@@ -39,6 +51,12 @@ void InputWatches::cap_by_age(Time now, double max_speed, SpeedCap& cap) const {
   };
   cap_by(odometry_.freshness(), "odometry");
   for (std::size_t i = 0; i < lasers_.size(); ++i) cap_by(sweeps_[i], "sweep of the " + lasers_[i]);
+}
+
+void InputWatches::cap_by_proof(SpeedCap& cap) const {
+  for (std::size_t i = 0; i < scanners_.size(); ++i)
+    if (scanners_[i].is_unproven())
+      cap.lower(scanners_[i].unproven_speed(), "nothing has borne out the " + lasers_[i] + " yet");
 }
 
 void InputWatches::cap_by_position(Time now, double driven, double max_speed, SpeedCap& cap) const {

@@ -9,6 +9,7 @@
 
 #include "docent/collision_avoidance/local_planner/speed_cap.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
+#include "docent/collision_avoidance/plausibility/scanner_watch.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/collision_avoidance/watches/freshness.h"
 #include "docent/collision_avoidance/watches/odometry_watch.h"
@@ -38,8 +39,15 @@ class InputWatches {
  public:
   /// @param lasers  their names for a person
   InputWatches(const BaseLimits& limits, const InputWatchesParams& params, std::vector<std::string> lasers)
-      : params_{params}, lasers_{std::move(lasers)}, sweeps_(lasers_.size()), odometry_{limits} {}
+      : params_{params}, lasers_{std::move(lasers)}, sweeps_(lasers_.size()), odometry_{limits} {
+    know_map(limits, nullptr);
+  }
 
+  /// What the sweeps are compared with; before the first of them. @param map  null: there is none
+  void know_map(const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map) {
+    scanners_.clear();
+    for (const std::string& name : lasers_) scanners_.emplace_back(name, limits, map);
+  }
   [[nodiscard]] std::size_t lasers() const { return lasers_.size(); }
 
   // Each takes the local time of receipt, and the stamp by whatever clock.
@@ -47,6 +55,14 @@ class InputWatches {
     odometry_.receive(now, stamp, state, jumped, commands);
   }
   void hear_sweep(Time now, Time stamp, std::size_t laser) { sweeps_[laser].receive(now, stamp); }
+  /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp, which is local time
+  [[nodiscard]] SensorSweep judge_sweep(std::size_t laser, SensorSweep sweep, const Pose2& odom_from_base) {
+    return scanners_[laser].judge(std::move(sweep), odom_from_base);
+  }
+  /// Where the robot believes to be, odometry's frame at `stamp`. @param mass  of the belief there
+  void believe(Time stamp, const Pose2& map_from_odom, double mass) {
+    for (ScannerWatch& scanner : scanners_) scanner.believe(stamp, map_from_odom, mass);
+  }
   void hear_sonar(Time now, Time stamp, std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
     sonars_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
   }
@@ -64,6 +80,8 @@ class InputWatches {
   [[nodiscard]] std::optional<Complaint> complaint(Time now, const ObstacleMemory& memory) const;
   /// Slower the older the odometry and the sweeps are.
   void cap_by_age(Time now, double max_speed, SpeedCap& cap) const;
+  /// Slow until motion or the map has borne out every laser.
+  void cap_by_proof(SpeedCap& cap) const;
   /// Slower the older the virtual measurements are: what was computed for where the robot was still holds while it
   /// stands; driving wears it out.
   /// @param driven  [m] since they were taken
@@ -74,10 +92,12 @@ class InputWatches {
  private:
   [[nodiscard]] std::optional<Complaint> complaint_of_laser(Time now, std::size_t index,
                                                             const ObstacleMemory& memory) const;
+  [[nodiscard]] std::optional<Complaint> complaint_of_lasers(Time now, const ObstacleMemory& memory) const;
 
   InputWatchesParams params_;
   std::vector<std::string> lasers_;
-  std::vector<Freshness> sweeps_;  ///< [lasers]
+  std::vector<Freshness> sweeps_;       ///< [lasers]
+  std::vector<ScannerWatch> scanners_;  ///< [lasers]
   OdometryWatch odometry_;
   RingWatch sonars_{"sonar reading", "sonars"};
   RingWatch infrareds_{"infrared reading", "infrared sensors"};

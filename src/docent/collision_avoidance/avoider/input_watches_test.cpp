@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "docent/collision_avoidance/avoider/avoider.h"
@@ -72,6 +76,37 @@ TEST(InputWatches, CreepsAndSaysWhyWhenHalfOfALasersReadingsAreGone) {
     world.run(0.25);
     EXPECT_LT(world.velocity.linear, ComplaintParams{}.crippled_speed + 0.01);
     EXPECT_EQ(world.decision.reason, "the front laser gives too few readings");
+  }
+}
+
+TEST(InputWatches, StandsBeforeAWallThatALyingLaserDoesNotShow) {
+  const std::vector<std::pair<std::string, std::function<void(SensorSweep&)>>> lies{
+      {"wrong units",
+       [](SensorSweep& sweep) {
+         for (float& range : sweep.ranges) range *= 1000.0F;
+       }},
+      {"ends anywhere", [](SensorSweep& sweep) { sweep.ranges.assign(180, std::numeric_limits<float>::infinity()); }},
+      {"2.0 times too long", [](SensorSweep& sweep) {
+         for (float& range : sweep.ranges) range *= 2.0F;
+         sweep.max_range *= 2.0;
+       }}};
+  for (const auto& [words, lie] : lies) {
+    for (const double begins : {0.0, 1.0}) {
+      Rehearsal world;
+      world.box(-3.0, -2.0, 2.1 + begins, 2.0);
+      world.drive_to({{6.0, 0.0}});
+      if (begins == 0.0) world.map_from_base.x = 0.8;  // a wall 0.9 m ahead, and a metre of body
+      world.run(begins);
+      world.spoil = lie;
+      world.run(1.0);
+      const std::string said = world.decision.reason;
+      world.run(9.0);
+      EXPECT_GT(world.least_wall, 0.0) << words << " from " << begins;
+      // What is twice as far from the start shows when it moves.
+      const std::string all = said + world.decision.reason;
+      EXPECT_NE(all.find("front laser"), std::string::npos) << all;
+      EXPECT_NE(all.find(words), std::string::npos) << all;
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -47,8 +48,9 @@ class Rehearsal {
   bool front_repeats = false;               ///< the front laser gives its last sweep again and again
   double blind_from = 0.0, blind_to = 0.0;  ///< [rad] base frame: the front laser gives this there:
   float blind_range = std::numeric_limits<float>::quiet_NaN();
-  double front_missing = 0.0;   ///< share of the front laser's readings that are none
-  bool virtual_is_nan = false;  ///< one of the virtual measurements
+  double front_missing = 0.0;                                     ///< share of the front laser's readings that are none
+  std::function<void(SensorSweep&)> spoil = [](SensorSweep&) {};  ///< done to what both lasers say
+  bool virtual_is_nan = false;                                    ///< one of the virtual measurements
   double sensor_clock = 0.0;    ///< [s] before ours, of the lasers' computer, which localizes
   double odometry_clock = 0.0;  ///< [s] of the base's
   Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
@@ -190,6 +192,7 @@ class Rehearsal {
     }
     if (sensor == 0 && front_repeats && !last_front_.empty()) sweep.ranges = last_front_;
     if (sensor == 0) last_front_ = sweep.ranges;
+    spoil(sweep);
     avoider.add_sweep(now, sensor, sweep);
     if (auto made = avoider.reflex(now)) give(*made);
   }

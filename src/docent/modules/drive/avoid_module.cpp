@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "docent/collision_avoidance/avoider/avoider.h"
+#include "docent/grid/occupancy_grid.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
@@ -73,6 +74,7 @@ class AvoidModule final : public Module {
         avoider_{limits, params, laser_names(body_), std::move(planner)},
         drive_{bus_.publisher(topics::kDrive)},
         state_{bus_.publisher(topics::kAvoidState)} {
+    avoider_.know_map(std::make_shared<const OccupancyGrid>(context.museum.map));
     subscribe_sensors();
     subscribe_wishes();
     bus_.every(seconds(kTick), [this] { tick(); });
@@ -178,6 +180,9 @@ class AvoidModule final : public Module {
     for (const auto& mode : belief.hypotheses)
       hypotheses_.push_back({{mode.x, mode.y, Angle::radians(mode.theta)}, mode.mass});
     avoider_.add_belief({cells_, hypotheses_, belief.p_lost, belief.localized});
+    if (!hypotheses_.empty())
+      avoider_.add_place(bus_.now(), from_message(belief.header.stamp), hypotheses_.front().map_from_robot,
+                         from_message(belief.odom_pose), hypotheses_.front().mass);
   }
 
   void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {

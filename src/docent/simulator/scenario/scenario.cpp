@@ -1,6 +1,7 @@
 #include "docent/simulator/scenario/scenario.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +13,20 @@ namespace {
 
 constexpr double kFar = 1e5;      // [m]
 constexpr double kLongest = 1e8;  // [s]
+
+constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
+                                                         "sonar",       "odom",       "tactile",    "infrared"};
+constexpr std::array kFaults{"dead", "frozen", "half", "late", "short", "deaf", "storm"};
+constexpr std::array kLies{"units",  "silent", "sector", "too_near", "blind_near",
+                           "offset", "scaled", "stale",  "looped"};
+
+/// [name, value] of an enumeration whose names stand in its order.
+template <class T, std::size_t N>
+std::vector<std::pair<std::string, T>> named(const std::array<const char*, N>& names) {
+  std::vector<std::pair<std::string, T>> pairs;
+  for (std::size_t i = 0; i < N; ++i) pairs.emplace_back(names[i], static_cast<T>(i));
+  return pairs;
+}
 
 class EventReader {
  public:
@@ -76,9 +91,10 @@ class EventReader {
     if (kind == "kill") return kill(body);
     if (kind == "second_mode") return second_mode(body);
     if (kind == "odometry_jump") return odometry_jump(body);
+    if (kind == "lie") return scanner_lie(body);
     fault(kind_at_, "unknown kind '" + kind +
                         "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump)");
+                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -164,6 +180,9 @@ class EventReader {
   [[nodiscard]] auto degrees_into(double& value) const {
     return [this, &value](const YAML::Node& node) { value = Angle::degrees(number(node, -3600.0, 3600.0)).radians(); };
   }
+  [[nodiscard]] auto into(Sensor& value) const {
+    return [this, &value](const YAML::Node& node) { choice<Sensor>(node, named<Sensor>(kSensorNames), value); };
+  }
   [[nodiscard]] auto into(Point2& value) const {
     return [this, &value](const YAML::Node& node) { value = point(node); };
   }
@@ -189,38 +208,26 @@ class EventReader {
   [[nodiscard]] SensorFault sensor_fault(const YAML::Node& node) const {
     SensorFault event;
     fields(node,
-           {{"sensor",
-             [&](const YAML::Node& at) {
-               choice<Sensor>(at,
-                              {{"laser_front", Sensor::laser_front},
-                               {"laser_rear", Sensor::laser_rear},
-                               {"laser_left", Sensor::laser_left},
-                               {"laser_right", Sensor::laser_right},
-                               {"sonar", Sensor::sonar},
-                               {"odom", Sensor::odom},
-                               {"tactile", Sensor::tactile},
-                               {"infrared", Sensor::infrared}},
-                              event.sensor);
-             }},
-            {"kind",
-             [&](const YAML::Node& at) {
-               choice<FaultKind>(at,
-                                 {{"dead", FaultKind::dead},
-                                  {"frozen", FaultKind::frozen},
-                                  {"half", FaultKind::half},
-                                  {"late", FaultKind::late},
-                                  {"short", FaultKind::near},
-                                  {"deaf", FaultKind::deaf},
-                                  {"storm", FaultKind::storm}},
-                                 event.kind);
-             }},
+           {{"sensor", into(event.sensor)},
+            {"kind", [&](const YAML::Node& at) { choice<FaultKind>(at, named<FaultKind>(kFaults), event.kind); }},
             {"for", into(event.duration, 0.0, kLongest)},
             {"delay", into(event.delay, 0.01, 60.0)}},
            {"sensor", "kind"});
-    const bool is_of_ranges =
-        event.kind == FaultKind::near || event.kind == FaultKind::deaf || event.kind == FaultKind::storm;
+    const bool is_of_ranges = event.kind >= FaultKind::near;
     if (event.sensor == Sensor::odom && is_of_ranges) fault(kind_at_, "odometry has no ranges to be wrong");
     if (event.sensor == Sensor::tactile && is_of_ranges) fault(kind_at_, "the tactile ring has no ranges to be wrong");
+    return event;
+  }
+  [[nodiscard]] ScannerLie scanner_lie(const YAML::Node& node) const {
+    ScannerLie event;
+    fields(node,
+           {{"sensor", into(event.sensor)},
+            {"kind", [&](const YAML::Node& at) { choice<Lie>(at, named<Lie>(kLies), event.lie); }},
+            {"amount", [&](const YAML::Node& at) { event.amount = number(at, -100.0, 1e5); }},
+            {"bearing", degrees_into(event.bearing)},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"sensor", "kind"});
+    if (event.sensor > Sensor::laser_right) fault(kind_at_, "only lasers lie");
     return event;
   }
   [[nodiscard]] Stool stool(const YAML::Node& node) const {

@@ -36,6 +36,25 @@ struct SensorFault {
   double duration = 0.0;  ///< [s]; 0: to the end
   double delay = 0.5;     ///< [s] for `late`
 };
+/// What a scanner that works and is wrong says.
+enum class Lie {
+  units,       ///< every reading `amount` times as far, range_max as it was; by default 1000: millimetres
+  silent,      ///< +infinity, all round
+  sector,      ///< +infinity over `amount` degrees round `bearing`; by default 60
+  too_near,    ///< +infinity for what is nearer than `amount` metres; by default 0.6, and range_min says so
+  blind_near,  ///< the same, and range_min does not say so
+  offset,      ///< every reading `amount` metres farther; by default 0.5
+  scaled,      ///< every reading `amount` times as far, range_max as well; by default 2
+  stale,       ///< sweeps of `amount` seconds ago, with fresh stamps; by default 1
+  looped       ///< the sweeps of the last `amount` seconds again and again, with fresh stamps; by default 3
+};
+struct ScannerLie {
+  Sensor sensor = Sensor::laser_front;  ///< a laser
+  Lie lie = Lie::units;
+  std::optional<double> amount{};
+  double bearing = 0.0;   ///< [rad] sensor frame, of a sector's middle
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
 /// A small piece of furniture stands there for a while.
 struct Stool {
   Point2 at{};
@@ -139,7 +158,7 @@ struct Moment {
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
-               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump>
+               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -151,9 +170,9 @@ struct Scenario {
 };
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump.
-/// With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase has lasted so
-/// long. Error: "FILE:LINE: ...".
+/// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump,
+/// lie. With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase has lasted
+/// so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

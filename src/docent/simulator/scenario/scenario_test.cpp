@@ -121,7 +121,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
      "visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, "
-     "odometry_jump)"},
+     "odometry_jump, lie)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
@@ -130,6 +130,10 @@ constexpr Broken kBroken[] = {
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
      "s.yaml:3: expected one of laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared, "
      "found 'nose'"},
+    {"events:\n  - at: 1\n    lie: {sensor: sonar, kind: silent}", "s.yaml:3: only lasers lie"},
+    {"events:\n  - at: 1\n    lie: {sensor: laser_rear, kind: white}",
+     "s.yaml:3: expected one of units, silent, sector, too_near, blind_near, offset, scaled, stale, looped, found "
+     "'white'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: sad}",
      "s.yaml:3: expected one of dead, frozen, half, late, short, deaf, storm, found 'sad'"},
     {"events:\n  - at: 1\n    fault: {sensor: odom, kind: deaf}", "s.yaml:3: odometry has no ranges to be wrong"},

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "docent/collision_avoidance/plausibility/range_law.h"
+#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/grid/occupancy_grid.h"
+
+namespace docent::collision_avoidance {
+
+struct MapCheckParams {
+  RangeLawParams law{.noise = 0.12, .least = 20};  ///< noise: the map's cells, and the pose
+  double between = 0.2;                            ///< [s] between comparisons
+  std::size_t every = 2;                           ///< sample: neighbours tell little more
+  double least_mass = 0.5;                         ///< of the belief at the place that is asked
+  double longest = 3.0;                            ///< [s] since the belief
+  double off = 0.6;           ///< [m] that the place may be wrong: does that explain the readings as well?
+  double off_step = 0.15;     ///< [m] tried
+  double off_turn = 0.17;     ///< [rad] 10 degrees likewise
+  double as_well = 0.15;      ///< of the samples fewer are still as well explained
+  double fits = 0.6;          ///< of the samples that answer are as the map has them: the place is right
+  int least_answers = 12;     ///< of them, for that
+  double nothing_near = 0.1;  ///< of the samples at most meet anything within reach: a silent sweep is no wonder
+  int sure = 2;               ///< comparisons in succession
+};
+
+/// What the map says of a scanner's sweep where the robot believes to stand. The place is not taken for granted: ranges
+/// that are wrong by a law are told from a wrong place by trying places near by.
+class MapCheck {
+ public:
+  /// @param map  null: there is none
+  explicit MapCheck(std::shared_ptr<const OccupancyGrid> map = nullptr, const MapCheckParams& params = {})
+      : params_{params}, map_{std::move(map)} {}
+
+  /// Where the robot believes to be. @param mass  of the belief there, 0..1
+  void believe(Time stamp, const Pose2& map_from_odom, double mass);
+
+  /// What one sweep says.
+  struct Finding {
+    bool is_known = false;          ///< there is a place to compare with; else nothing else holds
+    bool in_order = false;          ///< the sweep is as the map has it
+    std::optional<RangeLaw> lie{};  ///< what holds for its ranges instead
+    bool is_nothing_near = false;   ///< the map has nothing within this scanner's reach
+    bool fits = false;              ///< what answers is as the map has it, so that silence can be judged
+  };
+  /// nullopt: it is not time for another comparison. O(samples * cells of a ray).
+  [[nodiscard]] std::optional<Finding> compare(const SweepView& view);
+  /// [samples] of the last comparison: [m]; kNoAnswer: nothing within reach; NaN: the map does not say.
+  [[nodiscard]] const std::vector<float>& expected() const { return expected_; }
+
+ private:
+  void expect_at(const SweepView& view, const Pose2& map_from_sensor, std::size_t every,
+                 std::vector<float>& expected) const;
+  [[nodiscard]] float cast(Point2 from, Point2 ray, double reach) const;
+  [[nodiscard]] bool is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const;
+
+  MapCheckParams params_;
+  std::shared_ptr<const OccupancyGrid> map_;
+  std::optional<Pose2> map_from_odom_;
+  Time believed_{};
+  Time compared_{};
+  std::vector<float> expected_;
+  int row_ = 0;
+};
+
+}  // namespace docent::collision_avoidance

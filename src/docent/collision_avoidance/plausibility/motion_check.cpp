@@ -1,0 +1,121 @@
+#include "docent/collision_avoidance/plausibility/motion_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace docent::collision_avoidance {
+namespace {
+
+/// Too short is safe, and is what wheels that slip look like.
+constexpr std::array<double, 7> kScales{1.5, 2.0, 2.5, 3.3, 5.0, 10.0, 30.0};
+constexpr std::array<double, 7> kLags{0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};  // [s]
+constexpr double kTrail = 9.0;                                              // [s]
+
+}  // namespace
+
+Pose2 MotionCheck::odom_from_sensor_at(Time time) const {
+  const auto after = std::find_if(trail_.begin(), trail_.end(), [&](const Step& step) { return step.stamp >= time; });
+  if (after == trail_.end()) return trail_.back().odom_from_sensor;
+  if (after == trail_.begin()) return trail_.front().odom_from_sensor;
+  const Step& before = *std::prev(after);
+  const double share = to_seconds(time - before.stamp) / std::max(1e-6, to_seconds(after->stamp - before.stamp));
+  const Pose2 step = inverse(before.odom_from_sensor) * after->odom_from_sensor;
+  return before.odom_from_sensor * Pose2{share * step.x, share * step.y, Angle::radians(share * step.theta.radians())};
+}
+
+MotionCheck::Share MotionCheck::share_of(const SweepView& view, const Pose2& now_from_then) {
+  expect(*from_, now_from_then, view, expected_);
+  Share share;
+  for (std::size_t i = 0; i < expected_.size(); ++i) {
+    if (expected_[i] > params_.law.surely_within * view.max_range) expected_[i] = std::nanf("");
+    if (!std::isnan(expected_[i]) && !std::isnan(view.ranges[i])) ++share.compared;
+  }
+  if (share.compared > 0)
+    share.agrees = static_cast<double>(count_by_law(expected_, view, 1.0, 0.0, params_.law)) / share.compared;
+  return share;
+}
+
+MotionCheck::Finding MotionCheck::count(Finding finding) {
+  row_ = finding == last_ ? row_ + 1 : 1;
+  last_ = finding;
+  if (finding == Finding::in_order || finding == Finding::nothing) return finding;
+  return row_ >= params_.sure ? finding : Finding::nothing;
+}
+
+bool MotionCheck::differs(const Pose2& a, const Pose2& b) const {
+  const Pose2 off = inverse(a) * b;
+  return norm(off.position()) >= params_.differs_way || std::abs(off.theta.radians()) >= params_.differs_turn;
+}
+
+Pose2 MotionCheck::now_from_then_if_late(const SweepView& view, double lag) const {
+  return inverse(odom_from_sensor_at(view.stamp - seconds(lag))) * odom_from_sensor_at(from_->stamp - seconds(lag));
+}
+
+bool MotionCheck::would_late_ones_differ(const SweepView& view, const Pose2& by_odometry, double agrees) {
+  return std::all_of(kLags.begin(), kLags.end(), [&](double lag) {
+    if (lag < params_.late) return true;
+    const Pose2 late = now_from_then_if_late(view, lag);
+    return differs(by_odometry, late) && share_of(view, late).agrees <= agrees - params_.otherwise;
+  });
+}
+
+MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_late) {
+  const Pose2 by_odometry = inverse(view.odom_from_sensor) * from_->odom_from_sensor;
+  const Share here = share_of(view, by_odometry);
+  if (here.compared >= params_.law.least && here.agrees >= params_.surely_agrees)
+    return !may_be_late || would_late_ones_differ(view, by_odometry, here.agrees) ? Finding::in_order
+                                                                                  : Finding::nothing;
+  const double least = std::max(params_.explains, here.agrees + params_.better);
+  Finding finding = Finding::nothing;
+  double best = least;
+  const auto try_out = [&](const Pose2& other, Finding means) {
+    if (!differs(by_odometry, other)) return false;
+    const Share share = share_of(view, other);
+    if (share.compared < params_.law.least || share.agrees < best) return false;
+    best = share.agrees;
+    finding = means;
+    return true;
+  };
+  for (const double scale : kScales) {
+    // place / scale is true, moves by t, and reads scale times as far: R place + scale t.
+    const Pose2 longer{scale * by_odometry.x, scale * by_odometry.y, by_odometry.theta};
+    if (try_out(longer, Finding::too_long)) scale_ = scale;
+  }
+  for (const double lag : kLags) {
+    if (try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
+  }
+  if (finding != Finding::nothing) return finding;
+  const bool agrees = here.compared >= params_.law.least && here.agrees >= params_.agrees && !may_be_late;
+  return agrees ? Finding::in_order : Finding::nothing;
+}
+
+MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
+  trail_.push_back({view.stamp, view.odom_from_sensor});
+  while (view.stamp - trail_.front().stamp > seconds(kTrail)) trail_.pop_front();
+  if (!from_) {
+    from_ = view;
+    return Finding::nothing;
+  }
+  const Pose2 moved = inverse(from_->odom_from_sensor) * view.odom_from_sensor;
+  const double way = norm(moved.position());
+  const double turn = std::abs(moved.theta.radians());
+  Finding finding = Finding::nothing;
+  const bool is_far = way >= params_.least_way || turn >= params_.least_turn;
+  if (is_far && view.stamp - compared_ >= seconds(params_.between)) {
+    compared_ = view.stamp;
+    finding = count(compare(view, may_be_late));
+    if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
+      finding = Finding::nothing;
+  }
+  const bool is_pending = last_ != Finding::nothing && last_ != Finding::in_order && row_ < params_.sure;
+  if (way > params_.farthest || turn > 2.0 * params_.proves_turn ||
+      (view.stamp - from_->stamp > seconds(params_.longest) && !is_pending)) {
+    unproven_ = finding == Finding::in_order ? 0.0 : unproven_ + way;
+    from_ = view;
+    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::in_order;
+  }
+  return finding;
+}
+
+}  // namespace docent::collision_avoidance

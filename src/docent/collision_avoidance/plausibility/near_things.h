@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "docent/collision_avoidance/plausibility/sweep_form.h"
+#include "docent/collision_avoidance/plausibility/sweep_view.h"
+
+namespace docent::collision_avoidance {
+
+struct NearThingsParams {
+  double comes = 0.25;     ///< [m] beyond min_range: what was so near may be nearer in the next sweep
+  double step = 1.6;       ///< [m/s] with which somebody may come nearer
+  double goes = 0.15;      ///< [m] beyond min_range: what was nearer and went away must have been seen again
+  double beside = 0.03;    ///< [rad] to each side, of the beams that would meet it
+  double same = 0.05;      ///< [m] such places are one
+  int sure = 2;            ///< sweeps until it is named, or dropped
+  int several = 3;         ///< places that have gone at once
+  double longest = 30.0;   ///< [s] a place is held
+  double within = 1.2;     ///< [m] a scanner may be blind, whatever min_range it states
+  double flank = 0.1;      ///< [m] beyond the readings beside it a gap's thing was before
+  double gap_known = 0.6;  ///< of a gap's samples were that near
+};
+
+/// Things that came up to a scanner's min_range and of which it then said that nothing is there: they are, until beams
+/// end beyond the place, or the robot is so far from it that it would be seen. A scanner that is blind farther than it
+/// states shows that by a gap in the middle of a thing, with readings of the thing on both sides. Odometry's frame.
+class NearThings {
+ public:
+  explicit NearThings(const NearThingsParams& params = {}) : params_{params} {}
+
+  /// @param before  the sweep before @param expected  [samples] [m] of it, NaN: nothing
+  /// @param form  of this sweep, with the gaps that need no sweep before
+  void add(const SweepView& before, const SweepView& view, std::span<const float> expected, const SweepForm& form);
+  /// [m] What is nearer the scanner does not see; 0: as far as is known, as it states.
+  [[nodiscard]] double blind_within() const { return blind_within_; }
+  /// Beams of a sweep that say "nothing" where something is held, each once.
+  [[nodiscard]] std::vector<BeamRun> hidden_in(const SensorSweep& sweep, const Pose2& odom_from_sensor) const;
+  [[nodiscard]] bool is_any_sure() const { return sure_ >= params_.sure; }
+  void forget() { places_.clear(); }
+
+ private:
+  struct Place {
+    Point2 in_odom;
+    Time since;
+    int missed = 0;
+  };
+  void revise(const SweepView& view);
+  /// Samples in gaps in the middle of what was there. @returns whether there are any
+  bool find_gaps(const SweepView& view, std::span<const float> expected, std::vector<Point2>& gone);
+  void hold(const SweepView& view, std::span<const Point2> gone);
+  [[nodiscard]] double nearest(const SweepView& view) const { return std::max(view.min_range, blind_within_); }
+
+  NearThingsParams params_;
+  std::vector<Place> places_;
+  int sure_ = 0;
+  int gaps_ = 0;  ///< sweeps in which one showed
+  double blind_within_ = 0.0;
+};
+
+}  // namespace docent::collision_avoidance

@@ -1,0 +1,92 @@
+#include "docent/collision_avoidance/plausibility/near_things.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "docent/collision_avoidance/plausibility/room_for_test.h"
+
+namespace docent::collision_avoidance::near_things_test {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A scanner drives at a thing; it says that nothing is there of what is nearer than `blind`.
+class NearThingsTest : public ::testing::Test {
+ protected:
+  void drive(double from, double to, double blind, double step = 0.04) {
+    for (double x = from; x <= to; x += step) look({x, 0.0, {}}, blind);
+  }
+  void look(const Pose2& at, double blind) {
+    time += 0.1;
+    sweep = room.sweep(time, at);
+    for (float& range : sweep.ranges)
+      if (range < blind) range = kInfinity;
+    const SweepView view = view_of(sweep, at);
+    if (before) {
+      std::vector<float> expected;
+      expect(*before, inverse(at) * before->odom_from_sensor, view, expected);
+      things.add(*before, view, expected, form_of(sweep, std::max(sweep.min_range, things.blind_within()), limits));
+    }
+    before = view;
+    hidden = things.hidden_in(sweep, at).size();
+  }
+  RoomForTest room;
+  BaseLimits limits;
+  NearThings things;
+  std::optional<SweepView> before;
+  SensorSweep sweep;
+  double time = 0.0;
+  std::size_t hidden = 0;
+};
+
+TEST_F(NearThingsTest, HoldsAWallThatHasGoneWithinMinRange) {
+  room.min_range = 0.5;
+  room.walls = {{{2.0, -3.0}, {2.0, 3.0}}};
+  drive(0.0, 1.44, 0.5);
+  EXPECT_FALSE(things.is_any_sure());
+  drive(1.48, 1.7, 0.5);
+  EXPECT_TRUE(things.is_any_sure());
+  EXPECT_GT(hidden, 10U);
+  drive(1.7, 1.75, 0.5, 0.005);  // and goes on holding it
+  EXPECT_TRUE(things.is_any_sure());
+  EXPECT_GT(hidden, 10U);
+}
+
+TEST_F(NearThingsTest, HoldsALegWhichGoesAtOnce) {
+  room.min_range = 0.5;
+  room.discs = {{{2.0, 0.0}, 0.08}};
+  drive(0.0, 1.6, 0.5);
+  EXPECT_TRUE(things.is_any_sure());
+  EXPECT_GE(hidden, 3U);
+  // It walks away, and a wall is seen beyond.
+  room.discs.clear();
+  room.walls = {{{4.0, -3.0}, {4.0, 3.0}}};
+  for (int i = 0; i < 4; ++i) look({1.6, 0.0, {}}, 0.5);
+  EXPECT_EQ(hidden, 0U);
+  EXPECT_FALSE(things.is_any_sure());
+}
+
+TEST_F(NearThingsTest, FindsAScannerThatIsBlindFartherThanItStates) {
+  room.min_range = 0.05;
+  room.walls = {{{2.0, -3.0}, {2.0, 3.0}}};
+  drive(0.0, 1.7, 0.6);
+  EXPECT_TRUE(things.is_any_sure());
+  EXPECT_NEAR(things.blind_within(), 0.62, 0.06);
+  EXPECT_GT(hidden, 10U);
+}
+
+TEST_F(NearThingsTest, SomebodyWhoStepsAsideIsNotHeld) {
+  room.min_range = 0.15;
+  for (int i = 0; i < 20; ++i) {
+    room.discs = {{{0.62, -0.8 + 0.12 * i}, 0.25}};
+    look({}, 0.15);
+    EXPECT_EQ(hidden, 0U) << i;
+    EXPECT_FALSE(things.is_any_sure()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace docent::collision_avoidance::near_things_test

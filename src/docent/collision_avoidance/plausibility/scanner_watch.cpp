@@ -1,0 +1,264 @@
+#include "docent/collision_avoidance/plausibility/scanner_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
+
+namespace docent::collision_avoidance {
+namespace {
+
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+
+/// A run of samples as beams of the sweep that was thinned to them.
+BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSweep& sweep) {
+  const auto stride = static_cast<std::size_t>(std::lround(view.bearing_step / sweep.bearing_step));
+  const bool is_last = samples.end == view.ranges.size();
+  return {samples.first * stride, is_last ? sweep.ranges.size() : samples.end * stride};
+}
+
+/// A view of what is wider than a person and straight.
+SweepView walls_of(const SweepView& view) {
+  std::vector<Point2> places;
+  std::vector<double> ranges;
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
+    if (!view.met(i)) continue;
+    places.push_back(view.place(i));
+    ranges.push_back(static_cast<double>(view.ranges[i]));
+    samples.push_back(i);
+  }
+  const std::vector<bool> straight = on_straight_pieces(places, ranges, view.bearing_step);
+  SweepView walls = view;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    if (!straight[k]) walls.ranges[samples[k]] = kNoReading;
+  return walls;
+}
+
+}  // namespace
+
+ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
+                           const ScannerWatchParams& params)
+    : name_{std::move(name)},
+      limits_{limits},
+      params_{params},
+      map_{std::move(map), params.map},
+      motion_{params.motion},
+      repeats_{params.repeats},
+      sectors_{params.sectors},
+      of_map_{params.sectors},
+      near_{params.near} {}
+
+void ScannerWatch::convict(Lie lie, Time when) {
+  if (!lie_) lie_ = std::move(lie);
+  lie_->last_sign = when;
+  is_proven_ = false;
+}
+
+void ScannerWatch::acquit() {
+  lie_.reset();
+  lies_ = 0;
+  motion_.forget();
+  is_proven_ = true;
+}
+
+void ScannerWatch::judge_form(const SensorSweep& sweep) {
+  form_ = form_of(sweep, std::max(sweep.min_range, near_.blind_within()), limits_, params_.form);
+  const FormFault fault = form_.has_wrong_units ? FormFault::units
+                          : form_.is_covered    ? FormFault::covered
+                          : form_.is_silent     ? FormFault::silent
+                                                : FormFault::none;
+  if (fault != FormFault::none) {
+    form_fault_ = fault;
+    well_formed_ = 0;
+  } else if (++well_formed_ >= params_.good_again) {
+    form_fault_ = FormFault::none;
+  }
+}
+
+void ScannerWatch::judge_silence(const SweepView& view) {
+  is_silence_explained_ = false;
+  if (!form_.is_silent) return;
+  if (map_said_ != Time{} && view.stamp - map_said_ < seconds(params_.silence_map)) {
+    is_silence_explained_ = map_has_nothing_;
+    return;
+  }
+  if (!before_) return;
+  // What was met last must by now lie out of reach, or out of the field.
+  if (view.stamp - before_->stamp > seconds(params_.people_stay))
+    expect(walls_of(*before_), inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
+  const RangeLaw law = find_law(expected_, view, params_.law);
+  is_silence_explained_ = law.compared <= params_.gone * before_->answers;
+}
+
+void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
+  std::vector<float> sure = expected_;  // as the law was found: without what may well give no answer
+  for (float& range : sure)
+    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
+  const int by_lie = count_by_law(sure, view, lie_->law.scale, lie_->law.offset, params_.law);
+  const double enough = params_.returns * law.compared;
+  const bool is_as_before = law.as_expected >= enough && law.as_expected >= params_.clearly * by_lie;
+  // A robot that was carried farther from a wall sees a factor, too: that is for the motion to find out.
+  const bool lasts = by_lie >= enough && by_lie >= params_.clearly * law.as_expected;
+  if (lasts && !may_try()) lie_->last_sign = view.stamp;
+  lies_ = is_as_before ? lies_ + 1 : 0;
+  if (lies_ < params_.sure) return;
+  acquit();
+  before_ = view;
+}
+
+void ScannerWatch::judge_onset(const SweepView& view) {
+  if (form_.is_silent) return;
+  if (!before_) {
+    before_ = view;
+    return;
+  }
+  const RangeLaw law = find_law(expected_, view, params_.law);
+  const bool tells = law.compared >= params_.law.least;
+  if (lie_) {
+    if (lie_->by == Lie::By::sweeps && tells) follow_lie(view, law);
+    return;
+  }
+  if (tells && is_lie(law, params_.law)) {
+    if (++lies_ >= params_.sure) {
+      lies_ = 0;
+      convict({.what = "the distances of the " + name_ + " are " + to_words(law), .law = law}, view.stamp);
+    }
+    return;  // the sweep before stays what it is compared with
+  }
+  lies_ = 0;
+  const bool breaks = tells && !law.is_as_expected(params_.breaks);
+  if (!breaks || view.stamp - before_->stamp > seconds(params_.onset)) before_ = view;
+}
+
+void ScannerWatch::look_for_walls(const SweepView& view) {
+  if (!walls_) {
+    walls_ = walls_of(view);
+    return;
+  }
+  const Pose2 now_from_then = inverse(view.odom_from_sensor) * walls_->odom_from_sensor;
+  const double turn = std::abs(now_from_then.theta.radians());
+  const double way = norm(now_from_then.position());
+  const bool is_other = turn > params_.walls_least_turn || way > params_.walls_least_way;
+  const bool is_old = turn > params_.walls_turn || way > params_.walls_way ||
+                      view.stamp - walls_->stamp > seconds(params_.walls_longest);
+  if (is_other && !is_old) {
+    expect(*walls_, now_from_then, view, expected_);
+    sectors_.look_for(view, expected_, params_.walls_patience);
+  }
+  if (is_old) walls_ = walls_of(view);
+}
+
+void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+  if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
+    convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+  switch (motion_.add(view, lie_ && lie_->is_late)) {
+    case MotionCheck::Finding::too_long: {
+      RangeLaw law;
+      law.scale = motion_.scale();
+      convict({.what = "the distances of the " + name_ + " do not fit the motion: " + to_words(law),
+               .by = Lie::By::motion,
+               .law = law},
+              view.stamp);
+      break;
+    }
+    case MotionCheck::Finding::late:
+      convict({.what = "the " + name_ + " gives old sweeps: they do not fit the motion",
+               .by = Lie::By::motion,
+               .is_late = true},
+              view.stamp);
+      break;
+    case MotionCheck::Finding::in_order:
+      if (!lie_) {
+        is_proven_ = true;
+      } else if (may_try() && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+        acquit();
+      }
+      break;
+    case MotionCheck::Finding::nothing:
+      break;
+  }
+}
+
+void ScannerWatch::judge_by_map(const SweepView& view) {
+  const auto found = map_.compare(view);
+  if (!found || !found->is_known) return;
+  map_said_ = view.stamp;
+  map_has_nothing_ = found->is_nothing_near;
+  if (found->lie) {
+    convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
+             .by = Lie::By::map,
+             .law = *found->lie},
+            view.stamp);
+  } else if (found->in_order && !lie_) {
+    is_proven_ = true;
+  } else if (found->in_order && !lie_->is_late && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+    acquit();
+  }
+  of_map_.forget();
+  if (found->fits) of_map_.look_for(view, map_.expected(), params_.map_patience);
+  of_map_row_ = of_map_.runs().empty() ? 0 : of_map_row_ + 1;
+  if (of_map_row_ >= params_.map_silences) sectors_.look_for(view, map_.expected(), params_.map_patience);
+}
+
+void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
+  const bool is_nothing_to_believe =
+      lie_ || form_fault_ == FormFault::units || (form_.is_silent && !is_silence_explained_);
+  if (is_nothing_to_believe) {
+    std::fill(sweep.ranges.begin(), sweep.ranges.end(), kNoReading);
+    return;
+  }
+  const auto hide_silent = [&](const BeamRun& run) {
+    for (std::size_t i = run.first; i < std::min(run.end, sweep.ranges.size()); ++i)
+      if (sweep.ranges[i] >= sweep.max_range) sweep.ranges[i] = kNoReading;
+  };
+  for (const BeamRun& run : sectors_.runs()) hide_silent(beams_of(run, view, sweep));
+  for (const BeamRun& run : near_.hidden_in(sweep, view.odom_from_sensor)) hide_silent(run);
+  for (const BeamRun& run : form_.too_near) hide_silent(run);
+}
+
+SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base) {
+  if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
+  base_from_sensor_ = sweep.base_from_sensor;
+  newest_ = sweep.stamp;
+  judge_form(sweep);
+  const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
+  if (!form_.has_wrong_units) {
+    if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
+    judge_silence(view);
+    sectors_.follow(view);
+    if (before_ && !form_.is_silent) {
+      const double elapsed = to_seconds(view.stamp - before_->stamp);
+      if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
+      near_.add(*before_, view, expected_, form_);
+    }
+    judge_motion(view, sweep, odom_from_base);
+    judge_by_map(view);
+    judge_onset(view);
+    if (!form_.is_silent && !lie_) look_for_walls(view);
+  }
+  hide(sweep, view);
+  return sweep;
+}
+
+std::optional<Complaint> ScannerWatch::complaint() const {
+  if (form_fault_ == FormFault::units) return Complaint{0.0, "the distances of the " + name_ + " are in wrong units"};
+  if (form_fault_ == FormFault::silent && !is_silence_explained_)
+    return Complaint{0.0, "no beam of the " + name_ + " ends anywhere"};
+  if (form_fault_ == FormFault::covered) return Complaint{0.0, "something covers the " + name_};
+  if (lie_) {
+    const bool tries = may_try() && newest_ - lie_->last_sign > seconds(params_.stands);
+    return Complaint{tries ? params_.trial_speed : 0.0, lie_->what};
+  }
+  if (sectors_.is_any_sure())
+    return Complaint{params_.crippled_speed, "the " + name_ + " sees nothing in a part of its field"};
+  if (near_.is_any_sure())
+    return Complaint{params_.crippled_speed, "the " + name_ + " says \"nothing there\" of what is too near"};
+  if (form_fault_ == FormFault::silent && looks_ahead())
+    return Complaint{params_.crippled_speed, "no beam of the " + name_ + " ends anywhere"};
+  return std::nullopt;
+}
+
+}  // namespace docent::collision_avoidance

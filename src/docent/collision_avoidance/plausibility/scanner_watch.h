@@ -1,0 +1,126 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/plausibility/blind_sectors.h"
+#include "docent/collision_avoidance/plausibility/map_check.h"
+#include "docent/collision_avoidance/plausibility/motion_check.h"
+#include "docent/collision_avoidance/plausibility/near_things.h"
+#include "docent/collision_avoidance/plausibility/range_law.h"
+#include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
+#include "docent/collision_avoidance/plausibility/sweep_form.h"
+#include "docent/collision_avoidance/watches/complaint.h"
+
+namespace docent::collision_avoidance {
+
+struct ScannerWatchParams {
+  SweepFormParams form{};
+  RangeLawParams law{};
+  RepeatedSweepsParams repeats{};
+  BlindSectorsParams sectors{};
+  NearThingsParams near{};
+  MotionCheckParams motion{};
+  MapCheckParams map{};
+  double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
+  double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
+  double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
+  double stands = 8.0;            ///< [s] after the last sign of a lie, before that
+  double onset = 0.6;             ///< [s] since the sweep before, at most: then people and places have changed
+  double breaks = 0.4;            ///< of the samples at most as the sweep before has it: something has happened
+  double returns = 0.35;          ///< of the samples at least as before the lie, or by its law: people have moved since
+  double clearly = 2.0;           ///< times as many as of the other
+  int sure = 2;                   ///< sweeps that say the same
+  int good_again = 3;             ///< sweeps without a fault of form until it is forgotten
+  double gone = 0.15;             ///< of the samples at most should still meet something: a silence is no wonder
+  double people_stay = 3.0;       ///< [s] then those who were all that was seen may have left; walls have not
+  double silence_map = 3.0;       ///< [s] in which the map's word on a silent sweep holds
+  int map_silences = 3;           ///< comparisons with the map in which a sector is blind
+  double map_patience = 0.75;     ///< [s] as if the map's sector had been seen so long ago: a wider one is asked for
+  double walls_longest = 2.0;     ///< [s] for which walls that were seen are expected,
+  double walls_way = 1.0;         ///< [m] and so far from there,
+  double walls_turn = 0.8;        ///< [rad] and turned so far
+  double walls_least_turn = 0.2;  ///< [rad] and at least so far, or
+  double walls_least_way = 0.3;   ///< [m] at least so far: before, the same beams meet them
+  double walls_patience = 0.25;   ///< [s] as if they had been seen so long ago: walls do not step aside
+  double ahead = 1.75;            ///< [rad] a scanner that looks so far from ahead does not see where it drives
+};
+
+/// Judges every sweep of one scanner before anything else takes it for true: what no scanner in order says, what does
+/// not follow from the sweeps before, from the motion or from the map. What is not to be believed becomes "no reading",
+/// which nothing takes for free floor.
+class ScannerWatch {
+ public:
+  /// @param name  for a person: "front laser" @param map  null: there is none
+  ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
+               const ScannerWatchParams& params = {});
+
+  /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp
+  [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base);
+  /// Where the robot believes to be. @param mass  of the belief there
+  void believe(Time stamp, const Pose2& map_from_odom, double mass) { map_.believe(stamp, map_from_odom, mass); }
+
+  /// What is wrong with the scanner; nullopt: nothing that is known of.
+  [[nodiscard]] std::optional<Complaint> complaint() const;
+  /// Nothing has borne it out yet: neither motion nor the map.
+  [[nodiscard]] bool is_unproven() const { return !is_proven_; }
+  [[nodiscard]] double unproven_speed() const { return params_.unproven_speed; }
+
+ private:
+  /// A lie of the whole sweep, other than one of its form.
+  struct Lie {
+    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map.
+    enum class By { sweeps, motion, map };
+    std::string what;  ///< for a person
+    By by = By::sweeps;
+    RangeLaw law{};  ///< of sweeps and map
+    bool is_late = false;
+    Time last_sign{};  ///< when it showed last
+  };
+  void judge_form(const SensorSweep& sweep);
+  void judge_onset(const SweepView& view);
+  void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_by_map(const SweepView& view);
+  void judge_silence(const SweepView& view);
+  /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
+  void look_for_walls(const SweepView& view);
+  void convict(Lie lie, Time when);
+  /// While a lie lasts that was seen to begin: do the sweeps follow it still, or are they as before?
+  void follow_lie(const SweepView& view, const RangeLaw& law);
+  /// Whether motion can show that it has ended: an offset moves along.
+  [[nodiscard]] bool may_try() const { return lie_->law.offset == 0.0; }
+  void acquit();
+  void hide(SensorSweep& sweep, const SweepView& view) const;
+  [[nodiscard]] bool looks_ahead() const { return std::abs(base_from_sensor_.theta.radians()) < params_.ahead; }
+
+  std::string name_;
+  BaseLimits limits_;
+  ScannerWatchParams params_;
+  MapCheck map_;
+  MotionCheck motion_;
+  RepeatedSweeps repeats_;
+  BlindSectors sectors_;
+  BlindSectors of_map_;  ///< that the map alone shows, not yet believed
+  int of_map_row_ = 0;
+  NearThings near_;
+  Pose2 base_from_sensor_;
+  SweepForm form_;
+  enum class FormFault { none, units, covered, silent };
+  FormFault form_fault_ = FormFault::none;
+  int well_formed_ = 0;  ///< sweeps since a fault of form
+  bool is_silence_explained_ = false;
+  std::optional<SweepView> before_;  ///< the last sweep that was believed
+  std::optional<SweepView> walls_;   ///< what lay on long straight pieces a moment ago
+  std::vector<float> expected_;
+  int lies_ = 0;  ///< sweeps in succession that follow a law
+  std::optional<Lie> lie_;
+  Time newest_{};
+  Time map_said_{};               ///< when the map said last
+  bool map_has_nothing_ = false;  ///< that nothing is within reach
+  bool is_proven_ = false;
+};
+
+}  // namespace docent::collision_avoidance

@@ -1,0 +1,55 @@
+#include "docent/collision_avoidance/plausibility/sweep_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "docent/collision_avoidance/plausibility/room_for_test.h"
+
+namespace docent::collision_avoidance::sweep_view_test {
+namespace {
+
+TEST(SweepView, KeepsEveryBeamOfASmallSweepAndThinsALargeOne) {
+  SensorSweep sweep{time_from_seconds(1.0), {}, -1.0, 0.01, 0.1, 5.0, {}};
+  sweep.ranges.assign(200, 2.0F);
+  sweep.ranges[10] = std::nanf("");
+  sweep.ranges[20] = 0.05F;  // below min_range: no reading
+  sweep.ranges[30] = 5.0F;   // max_range: no answer
+  const SweepView whole = view_of(sweep, {}, 200);
+  ASSERT_EQ(whole.ranges.size(), 200U);
+  EXPECT_TRUE(std::isnan(whole.ranges[10]));
+  EXPECT_TRUE(std::isnan(whole.ranges[20]));
+  EXPECT_EQ(whole.ranges[30], kNoAnswer);
+  EXPECT_FALSE(whole.met(30));
+  EXPECT_EQ(whole.answers, 197);
+  EXPECT_EQ(whole.nearest[31], 2.0F);
+  EXPECT_EQ(whole.farthest[31], kNoAnswer);
+  const SweepView thin = view_of(sweep, {}, 50);
+  ASSERT_EQ(thin.ranges.size(), 50U);
+  EXPECT_NEAR(thin.bearing_step, 0.04, 1e-12);
+  EXPECT_EQ(thin.sample_to(thin.place(25)), 25);
+}
+
+TEST(SweepView, WhatStandsStillIsExpectedWhereItIs) {
+  RoomForTest room;
+  room.noise = 0.0;
+  room.box(-3, -4, 6, 4);
+  const Pose2 then{0.0, 0.0, {}};
+  const Pose2 now{0.4, 0.2, Angle::degrees(20)};
+  const SweepView seen = view_of(room.sweep(1.0, then), then);
+  const SweepView view = view_of(room.sweep(1.5, now), now);
+  std::vector<float> expected;
+  expect(seen, inverse(now) * then, view, expected);
+  ASSERT_EQ(expected.size(), view.ranges.size());
+  int known = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (std::isnan(expected[i])) continue;
+    ++known;
+    EXPECT_NEAR(expected[i], view.ranges[i], 0.15) << i;
+  }
+  EXPECT_GT(known, 100);
+  EXPECT_TRUE(std::isnan(expected.back()));  // it has turned to the left: nothing was seen there
+}
+
+}  // namespace
+}  // namespace docent::collision_avoidance::sweep_view_test
