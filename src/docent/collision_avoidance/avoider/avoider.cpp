@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // [m/s], [rad/s]
 
+motion_models::UnbrokenOdometryParams of_base(const BaseLimits& limits, motion_models::UnbrokenOdometryParams params) {
+  params.base = {limits.max_speed, limits.max_turn_rate};
+  return params;
+}
+
 }  // namespace
 
 Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers,
@@ -24,12 +29,15 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vec
       window_{limits, params.window},
       surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
       inputs_{limits, params.inputs(), std::move(lasers)},
+      unbroken_{of_base(limits, params.odometry)},
       max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
   const Time taken = local_time_.receive("odometry", now, stamp);
   const auto unbroken = unbroken_.add(taken, state.odom_from_base);
   inputs_.hear_odometry(now, stamp, state, unbroken.jumped, commands_);
+  if (unbroken.is_late) return;
+  if (unbroken.is_set_back) odometry_.forget();
   // A base that derives its velocity from its pose says nonsense in a jump.
   const bool keeps = unbroken.jumped && !odometry_.empty();
   odometry_.add(taken, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "docent/base/time.h"
-#include "docent/collision_avoidance/watches/clock_offset.h"
+#include "docent/collision_avoidance/clocks/clock_offset.h"
 
 namespace docent::collision_avoidance {
 

@@ -13,6 +13,8 @@ namespace docent::localization {
 /// others get is in the odometry's own frame, `raw`.
 class OdometryTrail {
  public:
+  explicit OdometryTrail(const motion_models::BaseReach& base = {}) : unbroken_{base} {}
+
   void add(Time stamp, const Pose2& raw_from_base);
 
   /// None: nobody knows, it is too old or too new.

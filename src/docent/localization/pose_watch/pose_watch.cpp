@@ -12,6 +12,7 @@ PoseWatch::PoseWatch(std::unique_ptr<Localizer> localizer, const std::vector<Pos
     : localizer_{std::move(localizer)},
       params_{params},
       sweeps_{base_from_laser},
+      odometry_{params.base},
       checkpoints_{std::move(checkpoints)} {
   if (const auto before = checkpoints_.restore(now))
     localizer_->start_at(before->modes, before->odom_from_robot, before->time);
