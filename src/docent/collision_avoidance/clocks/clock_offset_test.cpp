@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "docent/base/random.h"
 
 namespace docent::collision_avoidance::clock_offset_test {
@@ -18,28 +20,27 @@ struct Topic {
   double now = 100.0;    // [s]
   Rng rng{5};
   ClockOffset offset{};
+  double came = 0.0;       // [s] the last one
+  double overtaken = 0.0;  // [s] when it was sent; 0: none is on its way
 
   void run(double duration) {
     for (const double end = now + duration; now < end; now += period) {
       if (rng.chance(drop)) continue;
-      double comes = std::max(came_ + 1e-4, now + late + rng.uniform(0.0, jitter));
+      const double comes = std::max(came + 1e-4, now + late + rng.uniform(0.0, jitter));
       if (rng.chance(reorder)) {
-        overtaken_ = now;
+        overtaken = now;
         continue;
       }
       receive(comes, now);
-      if (overtaken_ > 0.0) receive(comes + 1e-3, overtaken_);
-      overtaken_ = 0.0;
+      if (overtaken > 0.0) receive(comes + 1e-3, overtaken);
+      overtaken = 0.0;
     }
   }
 
- private:
   void receive(double comes, double sent) {
-    came_ = comes;
+    came = comes;
     offset.receive(time_from_seconds(comes), time_from_seconds(sent + clock));
   }
-  double came_ = 0.0;
-  double overtaken_ = 0.0;
 };
 
 TEST(ClockOffset, IsTheLeastDelay) {
