@@ -118,6 +118,8 @@ class Avoider {
   [[nodiscard]] std::string fault(Time now) const;
 
  private:
+  /// A sweep that comes after a newer one, or twice.
+  [[nodiscard]] bool was_overtaken(std::size_t sensor, Time stamp);
   [[nodiscard]] bool is_touched(Time now, double within) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// [m/s] that the robot may drive at most.
@@ -162,6 +164,11 @@ class Avoider {
   PositionDoubt doubt_;
   LocalTime local_time_;
   motion_models::UnbrokenOdometry unbroken_;
+  struct SweepOrder {
+    std::optional<Time> newest;  ///< stamp
+    int older = 0;               ///< sweeps in succession that were older
+  };
+  std::vector<SweepOrder> sweep_order_;  ///< [lasers]
   BaseHistory odometry_;
   CommandHistory commands_;
   Velocity command_;

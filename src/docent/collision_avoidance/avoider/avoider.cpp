@@ -30,6 +30,7 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vec
       surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
       inputs_{limits, params.inputs(), std::move(lasers)},
       unbroken_{of_base(limits, params.odometry)},
+      sweep_order_(inputs_.lasers()),
       max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
@@ -47,8 +48,17 @@ void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= inputs_.lasers() || odometry_.empty()) return;
   inputs_.hear_sweep(now, sweep.stamp, sensor);
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
+  if (was_overtaken(sensor, sweep.stamp)) return;
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
+}
+
+bool Avoider::was_overtaken(std::size_t sensor, Time stamp) {
+  SweepOrder& order = sweep_order_[sensor];
+  if (stamp == order.newest) return true;
+  if (stamp < order.newest && ++order.older == 1) return true;  // a second one: the clock was set back
+  order = {stamp, 0};
+  return false;
 }
 
 void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {

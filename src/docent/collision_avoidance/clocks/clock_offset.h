@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "docent/base/time.h"
@@ -14,6 +16,7 @@ struct ClockOffsetParams {
   double step = 0.02;     ///< [s] a clock that is set back by less is not told from one that is not
   double pause = 2.0;     ///< usual intervals; who comes later for good has been silent for as long once
   int bear_out = 5;       ///< messages without a pause that bear out that the clock was set back
+  double caution = 0.0;   ///< [s] for which such messages count as late all the same
 };
 
 /// The offset of the clock that stamps a topic (architecture 10.4): the least difference seen between receipt and
@@ -49,11 +52,17 @@ class ClockOffset {
   int early_count_ = 0;
   Time newest_{};          ///< stamp
   double interval_ = 0.0;  ///< [s] usual between two receipts
+  double last_interval_ = 0.0;
   double set_back_ = 0.0;
+  static constexpr std::size_t kLately = 5;
+  std::array<double, kLately> delays_{};  ///< [s] the last ones, in turn
+  std::size_t turn_ = 0;
   struct Suspicion {
-    double rise = 0.0;   ///< [s] of the delay, when the stamp went back
-    double least = 0.0;  ///< [s] delay since
-    int count = 0;       ///< messages since, without a pause
+    double before = 0.0;  ///< [s] least delay just before
+    double rise = 0.0;    ///< [s] of the delay, when the stamp went back
+    double least = 0.0;   ///< [s] delay since
+    int count = 0;        ///< messages since, without a pause
+    double lasts = 0.0;   ///< [s] since the first of them
   };
   std::optional<Suspicion> suspicion_;
 };

@@ -40,6 +40,13 @@ TEST(OdometryTrail, AJumpIsTakenOnceByWhatWasSeenSince) {
   EXPECT_FALSE(trail.take_jump(at(2.1)));
 }
 
+TEST(OdometryTrail, IsCarriedOnForAMoment) {
+  OdometryTrail trail;
+  for (int i = 0; i < 20; ++i) trail.add(at(0.05 * i), {0.0, 0.0, Angle::radians(0.06 * i)});
+  EXPECT_NEAR(trail.at(at(1.05))->theta.radians(), 1.2 * 1.05, 1e-6);
+  EXPECT_FALSE(trail.at(at(1.3)));
+}
+
 TEST(OdometryTrail, ClocksThatAreSetBackBeginAnewWithoutAJump) {
   OdometryTrail trail;
   for (int i = 0; i < 20; ++i) trail.add(at(0.1 * i), {0.05 * i, 0.0, {}});

@@ -155,6 +155,9 @@ TEST_F(LocalizeModule, ScansOfAboutOneTimeMakeOneSweepAndALateOneIsLeftOut) {
   run(1.0);
   EXPECT_EQ(beams.bearings.size(), 2U * 91U);
   EXPECT_LT(to_seconds(hub.now() - from_message(beams.header.stamp)), 0.15) << "the stamp of the newer";
+  has_rear = false;  // who comes later for good is silent as long, once
+  run(0.4);
+  has_rear = true;
   rear_late = 0.4;
   run(1.0);
   EXPECT_EQ(beams.bearings.size(), 91U);

@@ -32,7 +32,12 @@ Result<void> WireParams::validate() const {
 }
 
 Wire::Wire(const WireParams& params, const Rng& rng, Time begins)
-    : params_{params}, rng_{rng}, begins_{begins}, last_{begins}, next_hiccup_{begins}, held_until_{begins} {
+    : params_{params},
+      rng_{rng},
+      begins_{begins},
+      last_{begins - Duration{1}},
+      next_hiccup_{begins},
+      held_until_{begins} {
   if (params_.hiccups > 0.0) next_hiccup_ = begins + seconds(rng_.exponential(kMinute / params_.hiccups));
 }
 
