@@ -17,8 +17,8 @@ class OdometryTrail {
 
   void add(Time stamp, const Pose2& raw_from_base);
 
-  /// Beyond the newest reading it is carried on as the robot went: odometry may be on its way. None: nobody knows, it is
-  /// too old or too new.
+  /// Beyond the newest reading it is carried on as the robot went: odometry may be on its way. None: nobody knows, it
+  /// is too old or too new.
   [[nodiscard]] std::optional<Pose2> at(Time stamp) const;
   [[nodiscard]] bool empty() const { return history_.empty(); }
   [[nodiscard]] const Pose2& latest() const { return history_.latest(); }    ///< @pre not empty

@@ -16,8 +16,6 @@ namespace docent::localization {
 class SweepJoiner {
  public:
   static constexpr Duration kTogether = std::chrono::milliseconds{250};  ///< scans that make one sweep
-  /// A scan that is older than the last one by less has been overtaken; by more: the clock was set back.
-  static constexpr Duration kOvertaken = std::chrono::milliseconds{150};
 
   /// @param base_from_laser  [lasers] where they are mounted
   explicit SweepJoiner(const std::vector<Pose2>& base_from_laser);

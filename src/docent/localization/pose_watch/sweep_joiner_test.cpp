@@ -67,15 +67,12 @@ TEST_F(SweepJoiner, WaitsForTheOdometryOfThen) {
   EXPECT_EQ(joined->odom_from_base.x, 0.2);
 }
 
-TEST_F(SweepJoiner, AScanThatWasOvertakenOrComesTwiceIsNoNewOne) {
-  for (int i = 0; i <= 20; ++i) odometry.add(at(0.05 * i), {});
+TEST_F(SweepJoiner, AScanThatComesTwiceIsNoNewOne) {
+  odometry.add(at(0.5), {});
   see(0, at(0.5), 2.0F);
   ASSERT_TRUE(joiner.join(odometry));
   see(0, at(0.5), 2.0F);
-  see(0, at(0.4), 2.5F);
   EXPECT_FALSE(joiner.join(odometry));
-  see(0, at(0.2), 2.5F);
-  EXPECT_TRUE(joiner.join(odometry)) << "the clock was set back";
 }
 
 TEST_F(SweepJoiner, OfEachLaserTheNewestScanCounts) {
