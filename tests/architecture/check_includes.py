@@ -31,7 +31,7 @@ LAYERS = [
 # Subfolders that are layered too, the lower floors first. A subfolder may see those of lower floors, and no other.
 FLOORS = {
     "collision_avoidance": [
-        {"body"},
+        {"body", "clocks"},
         {"obstacle_field", "dynamic_window", "watches", "virtual_measurements"},
         {"local_planner", "plausibility"},
         {"avoider"},
@@ -57,7 +57,7 @@ EDGE_MAY_SEE = {
     "messages": {"base", "geometry"},
     "robot": {"base", "geometry"},
     "transport": {"base", "messages"},
-    "recording": {"base", "geometry", "messages", "transport"},
+    "recording": {"base", "geometry", "messages", "motion_models", "transport"},
     "telepresence": {"base", "geometry", "grid", "messages", "museum", "pictures", "vocabulary"},
     "visualization": {"base", "geometry", "grid", "messages", "museum"},
     "evaluation": {"base", "geometry", "messages", "recording", "transport", "vocabulary"},

@@ -9,6 +9,7 @@
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
 #include "docent/recording/recorded_ranges.h"
+#include "docent/recording/rising_stamps.h"
 #include "docent/recording/rosbag2_database.h"
 
 namespace docent::recording {
@@ -53,8 +54,11 @@ class RosLaserLogBuilder {
   /// nullopt: nobody says it, or it lies far off any robot.
   [[nodiscard]] std::optional<Mount> mount_of(const std::string& frame) const;
   [[nodiscard]] Pose2 odometry_at(Time time) const;
+  /// What no base can have driven, as when a driver begins anew at zero.
+  void take_out_jumps();
 
   bool with_sonars_;
+  std::map<std::string, RisingStamps> stamps_;  ///< by odometry topic and by frame of a scanner
   std::vector<Scan> scans_;
   std::vector<Ping> pings_;
   std::map<std::string, std::vector<LoggedOdometry>> odometry_;               ///< by topic

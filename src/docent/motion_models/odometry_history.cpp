@@ -6,8 +6,9 @@ namespace docent::motion_models {
 
 void OdometryHistory::add(Time time, const Pose2& odom_from_robot) {
   if (!readings_.empty() && time <= readings_.back().time) {
-    if (readings_.back().time - time < std::chrono::seconds{2}) return;  // late or doubled
-    readings_.clear();                                                   // a stamp was wrong, or the clock was set
+    if (time == readings_.back().time) readings_.back().odom_from_robot = odom_from_robot;  // the newest of a burst
+    if (readings_.back().time - time < std::chrono::seconds{2}) return;                     // late or doubled
+    readings_.clear();  // a stamp was wrong, or the clock was set
   }
   readings_.push_back({time, odom_from_robot});
   while (readings_.size() > 1 && time - readings_.front().time > kept_) readings_.pop_front();

@@ -37,5 +37,16 @@ TEST(OdometryHistory, OneStampFromTheFutureDoesNotEndIt) {
   EXPECT_NEAR(history.at(time_from_seconds(1.3))->x, 1.3, 1e-9);
 }
 
+TEST(OdometryHistory, OfOneTimeTheNewestCounts) {
+  OdometryHistory history;
+  history.add(time_from_seconds(1.0), {1.0, 0.0, {}});
+  history.add(time_from_seconds(2.0), {2.0, 0.0, {}});
+  history.add(time_from_seconds(2.0), {2.5, 0.0, {}});
+  EXPECT_NEAR(history.latest().x, 2.5, 1e-9);
+  EXPECT_NEAR(history.at(time_from_seconds(1.5))->x, 1.75, 1e-9);
+  history.forget();
+  EXPECT_TRUE(history.empty());
+}
+
 }  // namespace
 }  // namespace docent::motion_models

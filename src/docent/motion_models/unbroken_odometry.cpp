@@ -7,13 +7,8 @@ namespace docent::motion_models {
 
 namespace {
 
-constexpr double kInFullDrive = 0.1;      // [m/s], [rad/s]: no base stands from it within one reading
-constexpr double kShortest = 0.005;       // [s] between two readings that tell a velocity
-constexpr double kLongestFrozen = 3.0;    // [s] the robot may have driven on meanwhile
-constexpr double kLinearChange = 4.0;     // [m/s2]
-constexpr double kAngularChange = 10.0;   // [rad/s2]
-constexpr double kLinearNoise = 0.06;     // [m]
-constexpr double kAngularNoise = 0.0873;  // [rad]
+constexpr double kFirstPeriod = 0.1;     // [s] a first interval may be shorter than usual by far
+constexpr double kLongestCarried = 0.5;  // [s] for which a base is taken to have driven on through a jump
 
 bool is_same(const Pose2& a, const Pose2& b) {
   return a.x == b.x && a.y == b.y && a.theta.radians() == b.theta.radians();
@@ -21,46 +16,83 @@ bool is_same(const Pose2& a, const Pose2& b) {
 
 }  // namespace
 
-bool UnbrokenOdometry::is_jump(double dt, const Pose2& motion) const {
-  const double square = 0.5 * dt * dt;
-  const Point2 carried{linear_ * dt, 0.0};
-  return distance(motion.position(), carried) > kLinearNoise + kLinearChange * square ||
-         std::abs(motion.theta.radians() - angular_ * dt) > kAngularNoise + kAngularChange * square;
+bool UnbrokenOdometry::counts(Time stamp) {
+  if (stamp >= *stamp_) return true;
+  rising_ = rising_ > 0 && stamp > late_stamp_ ? rising_ + 1 : 1;
+  late_stamp_ = stamp;
+  ++late_;
+  return rising_ >= params_.enough;
 }
 
-void UnbrokenOdometry::follow(double dt, const Pose2& motion) {
-  linear_ = std::copysign(norm(motion.position()), motion.x) / dt;
-  angular_ = motion.theta.radians() / dt;
+UnbrokenOdometry::Gap UnbrokenOdometry::gap_to(Time stamp, bool is_set_back) const {
+  const double usual = period_ * std::max(1, is_set_back ? late_ : late_ + 1);
+  const double hidden = is_set_back && *stamp_ - stamp >= seconds(params_.reboot) ? params_.most_held : 0.0;
+  const double elapsed = std::max(usual, to_seconds(stamp - changed_));
+  return {elapsed, elapsed + params_.jitter + std::max(held_, hidden)};
+}
+
+void UnbrokenOdometry::learn(double interval) {
+  const double readings = 1.0 + late_;
+  const double longest = readings * std::max(2.0 * period_, kFirstPeriod);
+  if (period_ == 0.0) period_ = std::min(interval, longest);
+  held_ = std::clamp(held_ * std::exp(-interval / params_.held_memory) + interval - readings * period_, 0.0,
+                     params_.most_held);
+  period_ += params_.learning * (std::min(interval, longest) / readings - period_);
+}
+
+bool UnbrokenOdometry::is_jump(const Gap& gap, const Pose2& raw_from_base, const Pose2& motion) const {
+  const double way = norm(motion.position());
+  const double turn = std::abs(motion.theta.radians());
+  const bool is_noise = way <= params_.linear_noise && turn <= params_.angular_noise;
+  if (is_same(raw_from_base, {}) && !is_noise) return true;  // who drives never comes back to zero to the last digit
+  return way > params_.linear_noise + params_.margin * params_.base.max_speed * gap.longest ||
+         turn > params_.angular_noise + params_.margin * params_.base.max_turn_rate * gap.longest;
+}
+
+bool UnbrokenOdometry::in_full_drive() const {
+  return std::abs(linear_) > params_.in_full_drive || std::abs(angular_) > params_.in_full_drive;
+}
+
+void UnbrokenOdometry::leave_out_step(Time stamp, const Gap& gap, const Pose2& raw_from_base) {
+  const double driven = std::min(gap.elapsed, kLongestCarried);
+  const Pose2 carried{linear_ * driven, 0.0, Angle::radians(angular_ * driven)};
+  odom_from_raw_before_ = odom_from_raw_;
+  odom_from_raw_ = odom_from_raw_ * raw_from_base_ * carried * inverse(raw_from_base);
+  jumped_ = stamp;
 }
 
 UnbrokenOdometry::Reading UnbrokenOdometry::add(Time stamp, const Pose2& raw_from_base) {
-  if (!stamp_ || *stamp_ - stamp >= seconds(1.0)) {
+  if (!stamp_) {
     stamp_ = changed_ = stamp;
     raw_from_base_ = raw_from_base;
-    linear_ = angular_ = 0.0;
-    return {odom_from_raw_ * raw_from_base_, false};
+    return {odom_from_raw_ * raw_from_base_};
   }
-  if (to_seconds(stamp - *stamp_) < kShortest) return {odom_from_raw_ * raw_from_base_, false};
-  const Pose2 motion = inverse(raw_from_base_) * raw_from_base;
-  const bool in_full_drive = std::abs(linear_) > kInFullDrive || std::abs(angular_) > kInFullDrive;
-  const bool frozen =
-      is_same(raw_from_base, raw_from_base_) && in_full_drive && stamp - changed_ < seconds(kLongestFrozen);
-  const double dt = std::max(kShortest, to_seconds(stamp - (in_full_drive ? changed_ : *stamp_)));
-  stamp_ = stamp;
-  if (frozen) return {odom_from_raw_ * raw_from_base_, false};
-  changed_ = stamp;
-  const bool jumped = is_jump(dt, motion);
-  if (jumped) {
-    const Angle turn = Angle::radians(angular_ * dt);
-    const Pose2 carried{linear_ * dt, 0.0, turn};
-    odom_from_raw_before_ = odom_from_raw_;
-    odom_from_raw_ = odom_from_raw_ * raw_from_base_ * carried * inverse(raw_from_base);
-    jumped_ = stamp;
+  const bool repeats = is_same(raw_from_base, raw_from_base_);
+  const bool is_double = stamp == *stamp_ && repeats;
+  if (is_double || !counts(stamp)) return {.odom_from_base = odom_from_raw_ * raw_from_base_, .is_late = true};
+  const bool is_set_back = stamp < *stamp_;
+  const Gap gap = gap_to(stamp, is_set_back);
+  if (is_set_back) {
+    changed_ = std::min(changed_, stamp);
+    jumped_ = std::min(jumped_, stamp);
   } else {
-    follow(dt, motion);
+    learn(to_seconds(stamp - *stamp_));
   }
+  late_ = rising_ = 0;
+  stamp_ = stamp;
+  const bool is_frozen = repeats && in_full_drive() && stamp - changed_ < seconds(params_.longest_frozen);
+  if (is_frozen) return {.odom_from_base = odom_from_raw_ * raw_from_base_, .is_set_back = is_set_back};
+  const Pose2 motion = inverse(raw_from_base_) * raw_from_base;
+  const bool jumped = is_jump(gap, raw_from_base, motion);
+  if (jumped) {
+    leave_out_step(stamp, gap, raw_from_base);
+  } else if (gap.elapsed > 0.0) {
+    linear_ = std::copysign(norm(motion.position()), motion.x) / gap.elapsed;
+    angular_ = motion.theta.radians() / gap.elapsed;
+  }
+  changed_ = stamp;
   raw_from_base_ = raw_from_base;
-  return {odom_from_raw_ * raw_from_base_, jumped};
+  return {odom_from_raw_ * raw_from_base_, jumped, false, is_set_back};
 }
 
 const Pose2& UnbrokenOdometry::odom_from_raw(Time stamp) const {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "docent/base/random.h"
 
 namespace docent::motion_models {
@@ -92,6 +94,94 @@ TEST(UnbrokenOdometry, MissingMessagesAreNoJump) {
     if (i % 2 == 0) {
       EXPECT_FALSE(odometry.add(drive.now, drive.odom_from_base).jumped);
     }
+  }
+}
+
+/// Sixty seconds at 0.7 m/s; `stamp_of` says by what stamp a reading of then comes.
+template <class Stamp>
+int jumps_of(double rate, Stamp stamp_of) {
+  UnbrokenOdometry odometry;
+  Pose2 raw;
+  int jumps = 0;
+  for (double now = 0.0; now < 60.0; now += 1.0 / rate) {
+    raw = raw * Pose2{0.7 / rate, 0.0, Angle::radians(0.2 / rate)};
+    const auto reading = odometry.add(time_from_seconds(100.0 + stamp_of(now)), raw);
+    jumps += reading.jumped ? 1 : 0;
+    if (!reading.is_late) {
+      EXPECT_LT(apart(reading.odom_from_base, raw), 1e-9);
+    }
+  }
+  return jumps;
+}
+
+TEST(UnbrokenOdometry, AClockThatIsSetBackIsNoJump) {
+  for (const double rate : {10.0, 20.0, 30.0, 50.0, 100.0})
+    for (double back = 0.002; back < 3.0; back *= 1.3)
+      EXPECT_EQ(jumps_of(rate, [&](double t) { return t < 5.0 ? t : t - back; }), 0) << rate << " " << back;
+}
+
+TEST(UnbrokenOdometry, AStallOfADriverThatStampsOnArrivalIsNoJump) {
+  for (const double rate : {10.0, 20.0, 50.0, 100.0})
+    for (double held = 0.02; held < 1.0; held *= 1.2)
+      EXPECT_EQ(jumps_of(rate,
+                         [&](double t) {
+                           const double into = std::fmod(t, 3.0);
+                           return into < held ? t - into + held + 0.02 * into : t;
+                         }),
+                0)
+          << rate << " " << held;
+}
+
+TEST(UnbrokenOdometry, JitterIsNoJump) {
+  Rng rng{4};
+  for (const double rate : {10.0, 20.0, 50.0, 100.0})
+    for (const double jitter : {0.005, 0.02, 0.05, 0.1})
+      EXPECT_EQ(jumps_of(rate, [&](double t) { return t + rng.uniform(0.0, jitter); }), 0) << rate << " " << jitter;
+}
+
+TEST(UnbrokenOdometry, DoublesAndOvertakenOnesTellNothing) {
+  UnbrokenOdometry odometry;
+  odometry.add(time_from_seconds(1.0), {1.0, 0.0, {}});
+  odometry.add(time_from_seconds(1.05), {1.02, 0.0, {}});
+  const auto doubled = odometry.add(time_from_seconds(1.05), {1.02, 0.0, {}});
+  EXPECT_TRUE(doubled.is_late);
+  const auto overtaken = odometry.add(time_from_seconds(1.0), {1.0, 0.0, {}});
+  EXPECT_TRUE(overtaken.is_late);
+  EXPECT_EQ(overtaken.odom_from_base.x, 1.02);
+  EXPECT_FALSE(odometry.add(time_from_seconds(1.1), {1.04, 0.0, {}}).is_late);
+}
+
+TEST(UnbrokenOdometry, OfABurstOfOneStampTheNewestCounts) {
+  UnbrokenOdometry odometry;
+  for (int i = 0; i < 20; ++i) odometry.add(time_from_seconds(0.05 * i), {0.035 * i, 0.0, {}});
+  for (int i = 20; i < 24; ++i) {
+    const auto reading = odometry.add(time_from_seconds(1.2), {0.035 * i, 0.0, {}});
+    EXPECT_FALSE(reading.jumped);
+    EXPECT_NEAR(reading.odom_from_base.x, 0.035 * i, 1e-9);
+  }
+}
+
+TEST(UnbrokenOdometry, BeginningAnewAtZeroIsAJumpAfterAnyPause) {
+  for (const double pause : {0.05, 0.5, 5.0, 60.0}) {
+    Drive drive;
+    UnbrokenOdometry odometry;
+    for (int i = 0; i < 40; ++i) {
+      drive.step();
+      odometry.add(drive.now, drive.odom_from_base);
+    }
+    const auto reading = odometry.add(drive.now + seconds(pause), {});
+    EXPECT_TRUE(reading.jumped) << pause;
+    EXPECT_LT(apart(reading.odom_from_base, drive.odom_from_base), 0.45) << "at most half a second of driving on";
+    EXPECT_FALSE(odometry.add(drive.now + seconds(pause + 0.05), {0.01, 0.0, {}}).jumped);
+  }
+}
+
+TEST(UnbrokenOdometry, AFasterBaseMayGoFarther) {
+  for (const double speed : {0.5, 2.0}) {
+    UnbrokenOdometry odometry{BaseReach{speed, 1.2}};
+    odometry.add(time_from_seconds(1.0), {});
+    odometry.add(time_from_seconds(2.0), {0.4, 0.0, {}});
+    EXPECT_EQ(odometry.add(time_from_seconds(3.0), {2.4, 0.0, {}}).jumped, speed < 1.0);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <functional>
 
 #include "docent/base/files.h"
 #include "docent/messages/conversions.h"
@@ -156,6 +157,49 @@ TEST_F(LaserLogFolder, ReadsTheFilesOfAFolderInTheirOrder) {
   write_mcap(bag / "bag_9.mcap", {messages.begin(), half});
   write_mcap(bag / "bag_10.mcap", {half, messages.end()});
   expect_drive(read_laser_log(bag));
+}
+
+/// The same drive by other odometry: `change` may do what it likes to message `i` of it.
+std::vector<Raw> drive_with(const std::function<void(int i, nav_msgs::Odometry& odometry)>& change) {
+  std::vector<Raw> messages = drive();
+  int i = 0;
+  for (Raw& message : messages) {
+    if (message.topic != "/odom") continue;
+    auto odometry = *decode_cdr<nav_msgs::Odometry>(message.data);
+    change(i++, odometry);
+    message.data = encode_cdr(odometry);
+  }
+  return messages;
+}
+
+TEST_F(LaserLogFolder, AnOdometryThatBeginsAnewIsNoMotionAndIsSaid) {
+  for (const Pose2& anew : {Pose2{}, Pose2{-7.0, 3.0, Angle::degrees(100)}}) {
+    write_mcap(folder_ / "anew.mcap", drive_with([&](int i, nav_msgs::Odometry& odometry) {
+                 if (i >= 60) odometry.pose.pose = to_message(anew * Pose2{0.05 * (i - 60), 0.0, {}});
+               }));
+    const auto log = read_laser_log(folder_ / "anew.mcap");
+    ASSERT_TRUE(log) << log.error().message;
+    ASSERT_EQ(log->notes.size(), 1U);
+    EXPECT_NE(log->notes.front().find("the odometry jumped once, 6 s"), std::string::npos) << log->notes.front();
+    for (const LoggedScan& scan : log->scans)
+      EXPECT_NEAR(scan.odom_from_base.x, 0.5 * (to_seconds(scan.time) - 100.0), 0.03);
+  }
+}
+
+TEST_F(LaserLogFolder, StampsAsDriversGiveThemAreNoJumps) {
+  // Jitter, a stall of 0.3 s after which what was held comes at once, and a clock that is set back.
+  write_mcap(folder_ / "rough.mcap", drive_with([](int i, nav_msgs::Odometry& odometry) {
+               double late = 0.02 * (i * 7 % 5) / 5.0;
+               if (i >= 30 && i < 33) late = 0.1 * (33 - i) + 0.001 * (i - 30);
+               if (i >= 50) late -= 2.0;
+               odometry.header.stamp = to_message(from_message(odometry.header.stamp) + seconds(late));
+             }));
+  const auto log = read_laser_log(folder_ / "rough.mcap");
+  ASSERT_TRUE(log) << log.error().message;
+  ASSERT_EQ(log->notes.size(), 1U);
+  EXPECT_NE(log->notes.front().find("set back"), std::string::npos) << log->notes.front();
+  for (const LoggedScan& scan : log->scans)
+    EXPECT_NEAR(scan.odom_from_base.x, 0.5 * (to_seconds(scan.time) - 100.0), 0.17);
 }
 
 TEST_F(LaserLogFolder, SaysWhatItHadToAssume) {

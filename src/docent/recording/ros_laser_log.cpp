@@ -8,6 +8,7 @@
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
 #include "docent/recording/log_scanners.h"
+#include "docent/motion_models/unbroken_odometry.h"
 
 namespace docent::recording {
 namespace {
@@ -84,6 +85,7 @@ Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
     LoggedOdometry reading;
     reading.time = from_message(odometry->header.stamp);
     if (reading.time.nanoseconds == 0) reading.time = message.time;
+    reading.time = stamps_[message.topic].follow(reading.time);
     reading.odom_from_base = from_message(odometry->pose.pose);
     reading.linear = odometry->twist.twist.linear.x;
     reading.angular = odometry->twist.twist.angular.z;
@@ -103,6 +105,7 @@ void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time lo
   scan.time = from_message(message.header.stamp);
   if (scan.time.nanoseconds == 0) scan.time = log_time;
   scan.frame = without_slash(message.header.frame_id);
+  scan.time = stamps_["scans of " + scan.frame].follow(scan.time);
   scan.scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
   scan.scan.bearing_step = static_cast<double>(message.angle_increment);
   scan.scan.ranges.reserve(message.ranges.size());
@@ -196,6 +199,29 @@ Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
           Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
 }
 
+void RosLaserLogBuilder::take_out_jumps() {
+  motion_models::UnbrokenOdometry unbroken{motion_models::BaseReach::of_any()};
+  std::vector<double> jumps;  // [s]
+  std::vector<LoggedOdometry> kept;
+  kept.reserve(log_.odometry.size());
+  for (LoggedOdometry& reading : log_.odometry) {
+    const auto found = unbroken.add(reading.time, reading.odom_from_base);
+    if (found.is_late) continue;
+    if (found.jumped) jumps.push_back(to_seconds(reading.time - log_.odometry.front().time));
+    reading.odom_from_base = found.odom_from_base;
+    kept.push_back(reading);
+  }
+  log_.odometry = std::move(kept);
+  if (!jumps.empty())
+    log_.notes.push_back("the odometry jumped " +
+                         (jumps.size() == 1 ? std::string{"once"} : std::to_string(jumps.size()) + " times, first") +
+                         ", " + std::to_string(std::lround(jumps.front())) +
+                         " s after it began: such a step is taken for no motion");
+  for (const auto& [name, stamps] : stamps_)
+    if (stamps.set_back() > 0)
+      log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
+}
+
 std::string RosLaserLogBuilder::refused_text() const {
   std::string text;
   for (const auto& [topic, refused] : refused_)
@@ -219,6 +245,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
     base_frame_ = base_frames_[most->first];
     if (odometry_.size() > 1) log_.notes.push_back("of several odometry topics " + most->first + " is used");
   }
+  take_out_jumps();
   std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
                    [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
   std::stable_sort(scans_.begin(), scans_.end(), [](const Scan& a, const Scan& b) { return a.time < b.time; });

@@ -51,6 +51,11 @@ void spoil(sensor_msgs::Range& ping, FaultKind kind, Rng& rng) {
 void spoil(nav_msgs::Odometry&, FaultKind, Rng&) {}    // no ranges: the scenario refuses it
 void spoil(docent_msgs::Tactile&, FaultKind, Rng&) {}  // likewise
 
+/// Of what lasts so long [s]; 0: to the end.
+Time end_of(double duration, Time now) {
+  return duration > 0.0 ? now + seconds(duration) : Time{std::numeric_limits<std::int64_t>::max()};
+}
+
 Sensor sensor_of(std::string_view scanner) {
   if (scanner == "rear") return Sensor::laser_rear;
   if (scanner == "left") return Sensor::laser_left;
@@ -79,6 +84,7 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
       ring_{sonars_of(hardware), rng.stream("sonar")},
       infrared_{infrareds_of(hardware), rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
+      wire_rng_{rng.stream("wires")},
       has_tactile_{hardware.has_tactile},
       pings_{bus.publisher(topics::kSonar)},
       infrared_readings_{bus.publisher(topics::kInfrared)},
@@ -111,9 +117,15 @@ void Instruments::change_world(const World& world) {
 }
 
 void Instruments::set_fault(const SensorFault& fault, Time now) {
-  const Time until =
-      fault.duration > 0.0 ? now + seconds(fault.duration) : Time{std::numeric_limits<std::int64_t>::max()};
-  faults_[static_cast<std::size_t>(fault.sensor)] = Fault{fault.kind, until, fault.delay};
+  faults_[static_cast<std::size_t>(fault.sensor)] = Fault{fault.kind, end_of(fault.duration, now), fault.delay};
+}
+
+void Instruments::set_transport(const Transport& transport, Time now) {
+  for (std::size_t sensor = 0; sensor < kSensors; ++sensor) {
+    if (transport.sensor && static_cast<std::size_t>(*transport.sensor) != sensor) continue;
+    lines_[sensor] =
+        Line{Wire{transport.wire, wire_rng_.stream(std::to_string(sensor)), now}, end_of(transport.duration, now)};
+  }
 }
 
 void Instruments::set_lie(const ScannerLie& lie, Time now) {
@@ -127,12 +139,28 @@ const Instruments::Fault* Instruments::fault_of(Sensor sensor, Time now) const {
 }
 
 template <class T>
+void Instruments::send(Sensor sensor, const transport::Publisher<T>& publisher, T message, Time now, double later) {
+  auto& line = lines_[static_cast<std::size_t>(sensor)];
+  const bool is_wired = line && now < line->until;
+  const auto deliveries = is_wired ? line->wire.carry(now) : std::vector<Wire::Delivery>{{Duration{}, now}};
+  for (const Wire::Delivery& delivery : deliveries) {
+    message.header.stamp = to_message(delivery.stamp);
+    const Duration after = delivery.after + seconds(later);
+    if (after.count() <= 0) {
+      publisher.publish(message);
+    } else {
+      bus_.after(after, [publisher, message] { publisher.publish(message); });
+    }
+  }
+}
+
+template <class T>
 void Instruments::emit(Sensor sensor, const transport::Publisher<T>& publisher, T message, std::optional<T>& last,
                        Time now) {
   const Fault* fault = fault_of(sensor, now);
   if (fault == nullptr) {
     last = message;
-    publisher.publish(std::move(message));
+    send(sensor, publisher, std::move(message), now);
     return;
   }
   switch (fault->kind) {
@@ -141,19 +169,19 @@ void Instruments::emit(Sensor sensor, const transport::Publisher<T>& publisher, 
     case FaultKind::frozen:
       if (!last) last = message;
       last->header.stamp = message.header.stamp;
-      publisher.publish(*last);
+      send(sensor, publisher, *last, now);
       return;
     case FaultKind::half:
-      if (halve(message, fault_rng_, skips_)) publisher.publish(std::move(message));
+      if (halve(message, fault_rng_, skips_)) send(sensor, publisher, std::move(message), now);
       return;
     case FaultKind::late:
-      bus_.after(seconds(fault->delay), [publisher, message = std::move(message)] { publisher.publish(message); });
+      send(sensor, publisher, std::move(message), now, fault->delay);
       return;
     case FaultKind::near:
     case FaultKind::deaf:
     case FaultKind::storm:
       spoil(message, fault->kind, fault_rng_);
-      publisher.publish(std::move(message));
+      send(sensor, publisher, std::move(message), now);
       return;
   }
 }

@@ -14,6 +14,7 @@
 #include "docent/simulator/sensing/laser.h"
 #include "docent/simulator/sensing/scanner_lies.h"
 #include "docent/simulator/sensing/sonar.h"
+#include "docent/simulator/transport/wire.h"
 #include "docent/transport/bus.h"
 
 namespace docent::simulator {
@@ -32,6 +33,8 @@ class Instruments {
   void set_fault(const SensorFault& fault, Time now);
   /// Of a laser that the robot has, from now on.
   void set_lie(const ScannerLie& lie, Time now);
+  /// From now on over such a wire, whatever was before.
+  void set_transport(const Transport& transport, Time now);
 
   /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.
   void jump(const Pose2& base_from_base, double over);
@@ -72,6 +75,9 @@ class Instruments {
   template <class T>
   void emit(Sensor sensor, const transport::Publisher<T>& publisher, T message, std::optional<T>& last, Time now);
   [[nodiscard]] const Fault* fault_of(Sensor sensor, Time now) const;
+  /// Over the sensor's wire, if it has one. @param later  [s] it is sent, by its fault
+  template <class T>
+  void send(Sensor sensor, const transport::Publisher<T>& publisher, T message, Time now, double later = 0.0);
   void publish_ping(Time now, const Ping& ping);
   [[nodiscard]] bool shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
                            std::span<const Disc> people) const;
@@ -87,7 +93,13 @@ class Instruments {
   InfraredRing infrared_;
   Rng fault_rng_;
   std::array<std::optional<Fault>, kSensors> faults_;
-  std::vector<Disc> near_;  ///< people within reach of the infrared ring
+  struct Line {
+    Wire wire;
+    Time until;
+  };
+  Rng wire_rng_;
+  std::array<std::optional<Line>, kSensors> lines_;  ///< of those whose messages do not come at once
+  std::vector<Disc> near_;                           ///< people within reach of the infrared ring
   bool skips_ = false;
   Time last_odometry_{};
   Pose2 last_pose_{};

@@ -188,4 +188,9 @@ void SimulatedMuseum::Impl::play(const OdometryJump& event) {
   offer("odometry_jump", "");
 }
 
+void SimulatedMuseum::Impl::play(const Transport& event) {
+  instruments_.set_transport(event, time_);
+  offer("transport", "");
+}
+
 }  // namespace docent::simulator

@@ -92,6 +92,7 @@ class SimulatedMuseum::Impl {
   void play(const BatteryChange& event);
   void play(const OdometryJump& event);
   void play(const ScannerLie& event);
+  void play(const Transport& event);
   void play(const PoseError& event) { leave_to_application(event, "pose_error", ""); }
   void play(const SecondMode& event) { leave_to_application(event, "second_mode", ""); }
   void play(const Kill& event) { leave_to_application(event, "kill", event.module); }

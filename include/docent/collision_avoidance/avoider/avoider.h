@@ -15,13 +15,13 @@
 #include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 #include "docent/collision_avoidance/local_planner/local_planner.h"
 #include "docent/collision_avoidance/local_planner/speed_cap.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 #include "docent/collision_avoidance/watches/contact_watch.h"
 #include "docent/collision_avoidance/watches/freshness.h"
-#include "docent/collision_avoidance/watches/local_time.h"
 #include "docent/collision_avoidance/watches/position_doubt.h"
 #include "docent/motion_models/unbroken_odometry.h"
 
@@ -123,6 +123,8 @@ class Avoider {
   [[nodiscard]] std::string fault(Time now) const;
 
  private:
+  /// A sweep that comes after a newer one, or twice.
+  [[nodiscard]] bool was_overtaken(std::size_t sensor, Time stamp);
   [[nodiscard]] bool is_touched(Time now, double within) const;
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// [m/s] that the robot may drive at most.
@@ -167,6 +169,11 @@ class Avoider {
   PositionDoubt doubt_;
   LocalTime local_time_;
   motion_models::UnbrokenOdometry unbroken_;
+  struct SweepOrder {
+    std::optional<Time> newest;  ///< stamp
+    int older = 0;               ///< sweeps in succession that were older
+  };
+  std::vector<SweepOrder> sweep_order_;  ///< [lasers]
   BaseHistory odometry_;
   CommandHistory commands_;
   Velocity command_;

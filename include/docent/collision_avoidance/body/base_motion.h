@@ -92,7 +92,9 @@ struct BaseHistoryParams {
 class BaseHistory {
  public:
   explicit BaseHistory(const BaseHistoryParams& params = {}) : params_{params} {}  ///< nothing is known yet
-  void add(Time stamp, const BaseState& state);  ///< by falling age; a stamp far older than the newest begins anew
+  /// By falling age, one of the same stamp takes the other's place; a stamp far older than the newest begins anew.
+  void add(Time stamp, const BaseState& state);
+  void forget() { states_.clear(); }  ///< the clock was set: the stamps of what is kept are of another one
   [[nodiscard]] bool empty() const { return states_.empty(); }  ///< nothing was added
   /// @pre not empty()
   [[nodiscard]] const BaseState& newest() const { return states_.back().second; }

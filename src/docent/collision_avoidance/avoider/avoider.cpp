@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // [m/s], [rad/s]
 
+motion_models::UnbrokenOdometryParams of_base(const BaseLimits& limits, motion_models::UnbrokenOdometryParams params) {
+  params.base = {limits.max_speed, limits.max_turn_rate};
+  return params;
+}
+
 }  // namespace
 
 Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vector<std::string> lasers,
@@ -24,12 +29,16 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vec
       window_{limits, params.window},
       surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
       inputs_{limits, params.inputs(), std::move(lasers)},
+      unbroken_{of_base(limits, params.odometry)},
+      sweep_order_(inputs_.lasers()),
       max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
   const Time taken = local_time_.receive("odometry", now, stamp);
   const auto unbroken = unbroken_.add(taken, state.odom_from_base);
   inputs_.hear_odometry(now, stamp, state, unbroken.jumped, commands_);
+  if (unbroken.is_late) return;
+  if (unbroken.is_set_back) odometry_.forget();
   // A base that derives its velocity from its pose says nonsense in a jump.
   const bool keeps = unbroken.jumped && !odometry_.empty();
   odometry_.add(taken, {unbroken.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
@@ -39,9 +48,18 @@ void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= inputs_.lasers() || odometry_.empty()) return;
   inputs_.hear_sweep(now, sweep.stamp, sensor);
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
+  if (was_overtaken(sensor, sweep.stamp)) return;
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
   if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base);
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
+}
+
+bool Avoider::was_overtaken(std::size_t sensor, Time stamp) {
+  SweepOrder& order = sweep_order_[sensor];
+  if (stamp == order.newest) return true;
+  if (stamp < order.newest && ++order.older == 1) return true;  // a second one: the clock was set back
+  order = {stamp, 0};
+  return false;
 }
 
 void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {

@@ -13,6 +13,7 @@
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 #include "docent/collision_avoidance/local_planner/local_planner.h"
 #include "docent/collision_avoidance/local_planner/window_planners.h"
+#include "docent/motion_models/unbroken_odometry.h"
 
 namespace docent::collision_avoidance {
 
@@ -67,6 +68,7 @@ struct AvoiderParams {
   bool has_lasers = true;        ///< false: the ring of sonars tells what is free
   bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
   bool watches = true;           ///< false: likewise: takes every sensor and belief for well
+  motion_models::UnbrokenOdometryParams odometry{};  ///< its base is the body's
 
   // What no robot.yaml needs to change.
   double first_max_speed = 0.7;  ///< [m/s] until the museum's mode has been heard

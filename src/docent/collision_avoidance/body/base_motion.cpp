@@ -64,6 +64,7 @@ BaseState predict(BaseState state, Time from, Time to, const CommandHistory& com
 
 void BaseHistory::add(Time stamp, const BaseState& state) {
   if (!states_.empty() && stamp <= states_.back().first) {
+    if (stamp == states_.back().first) states_.back().second = state;         // the newest of a burst
     if (states_.back().first - stamp < seconds(params_.begins_anew)) return;  // late or doubled
     states_.clear();                                                          // the clock or the base began anew
   }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "docent/base/time.h"
-#include "docent/collision_avoidance/watches/clock_offset.h"
+#include "docent/collision_avoidance/clocks/clock_offset.h"
 
 namespace docent::collision_avoidance {
 
@@ -14,6 +14,7 @@ struct FreshnessParams {
   double longest_pause = 2.0;  ///< periods; a pause must not teach that pauses are normal
   double first_period = 1.0;   ///< [s] at most, between the first two messages
   double learning = 0.1;       ///< an interval's share in the usual one
+  double caution = 3.0;        ///< [s] for which messages of a clock that was set back count as late
 };
 
 /// How old the newest message of a topic is, both by local receipt and by stamp (architecture 10.4).
@@ -22,7 +23,7 @@ struct FreshnessParams {
 /// age.
 class Freshness {
  public:
-  explicit Freshness(const FreshnessParams& params = {}) : params_{params} {}
+  explicit Freshness(const FreshnessParams& params = {}) : params_{params}, clock_{of(params)} {}
 
   void receive(Time now, Time stamp);
 
@@ -41,6 +42,11 @@ class Freshness {
   [[nodiscard]] bool is_silent(Time now, double least) const { return silence(now) > patience(least); }
 
  private:
+  static ClockOffsetParams of(const FreshnessParams& params) {
+    ClockOffsetParams clock;
+    clock.caution = params.caution;
+    return clock;
+  }
   [[nodiscard]] double patience(double least) const;  ///< [s]
 
   FreshnessParams params_;

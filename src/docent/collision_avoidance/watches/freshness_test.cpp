@@ -48,5 +48,14 @@ TEST(Freshness, AClockThatWasSetForwardIsBelievedAfterThreeMessages) {
   EXPECT_TRUE(freshness.is_stale(time_from_seconds(2.4)));
 }
 
+TEST(Freshness, AClockThatWasSetBackIsLateForAMomentAndThenBelieved) {
+  Freshness freshness;
+  for (int i = 0; i <= 50; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i));
+  for (int i = 51; i <= 70; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i - 0.4));
+  EXPECT_NEAR(freshness.lateness(), 0.4, 0.01) << "it may be late in truth";
+  for (int i = 71; i <= 100; ++i) freshness.receive(time_from_seconds(0.1 * i), time_from_seconds(0.1 * i - 0.4));
+  EXPECT_NEAR(freshness.lateness(), 0.0, 0.01);
+}
+
 }  // namespace
 }  // namespace docent::collision_avoidance::freshness_test

@@ -16,10 +16,9 @@ bool is_same(const Pose2& a, const Pose2& b) {
 void OdometryWatch::receive(Time now, Time stamp, const BaseState& state, bool jumped, const CommandHistory& commands) {
   freshness_.receive(now, stamp);
   if (jumped) jumped_ = now;
-  if (stamp_ && stamp > *stamp_) {
-    watch_for_gaps(to_seconds(stamp - *stamp_));
-    if (!jumped) watch_for_freeze(now, stamp, state, commands);  // the velocity of a jump is none
-  }
+  rhythm_.receive(stamp);
+  // The velocity of a jump is none.
+  if (stamp_ && stamp > *stamp_ && !jumped) watch_for_freeze(now, stamp, state, commands);
   if (!stamp_ || stamp > *stamp_ || *stamp_ - stamp > seconds(params_.begins_anew)) {
     stamp_ = stamp;
     state_ = state;
@@ -42,20 +41,12 @@ void OdometryWatch::watch_for_freeze(Time now, Time stamp, const BaseState& stat
   expected_way_ = 0.0;
 }
 
-void OdometryWatch::watch_for_gaps(double gap) {
-  if (usual_gap_ == 0.0) usual_gap_ = gap;
-  // Only what is no gap teaches what is usual.
-  if (gap < params_.gap * usual_gap_) usual_gap_ += params_.memory * (gap - usual_gap_);
-  const double foretold = std::max(1.0, std::round(gap / usual_gap_));
-  missing_ += params_.memory * (1.0 - 1.0 / foretold - missing_);
-}
-
 std::optional<Complaint> OdometryWatch::complaint(Time now) const {
   auto found = complaint_of(freshness_, now, "odometry", params_.complaints);
   if (frozen_)
     found = worse(
         found, Complaint{now - *frozen_ < seconds(params_.rest) ? 0.0 : params_.try_speed, "the odometry is frozen"});
-  if (missing_ > params_.many_missing)
+  if (rhythm_.misses_many())
     found = worse(found, Complaint{params_.complaints.crippled_speed, "odometry messages are missing"});
   if (jumped_ && now - *jumped_ < seconds(params_.after_jump))
     found = worse(found, Complaint{params_.complaints.crippled_speed, "the odometry jumped"});

@@ -4,17 +4,16 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/watches/complaint.h"
+#include "docent/collision_avoidance/watches/message_rhythm.h"
 
 namespace docent::collision_avoidance {
 
 struct OdometryWatchParams {
   ComplaintParams complaints{};
-  double expected = 0.1;      ///< [m] of driving, or of the rim in turning, by commands, that no odometry can miss
-  double rest = 8.0;          ///< [s] that a robot with a frozen odometry stands before it tries again
-  double try_speed = 0.06;    ///< [m/s] with which it tries
-  double memory = 0.08;       ///< a message's share in the running means
-  double many_missing = 0.2;  ///< of the messages that its rhythm foretells
-  double gap = 1.5;           ///< usual gaps; only what is no gap teaches what is usual
+  double expected = 0.1;    ///< [m] of driving, or of the rim in turning, by commands, that no odometry can miss
+  double rest = 8.0;        ///< [s] that a robot with a frozen odometry stands before it tries again
+  double try_speed = 0.06;  ///< [m/s] with which it tries
+  MessageRhythmParams rhythm{};
   double after_jump = 3.0;    ///< [s] in which the localizer looks several times
   double longest_step = 0.5;  ///< [s] between messages, for which the commands are still followed
   double begins_anew = 1.0;   ///< [s] a stamp so much older than the newest: the clock or the base began anew
@@ -27,7 +26,7 @@ struct OdometryWatchParams {
 class OdometryWatch {
  public:
   explicit OdometryWatch(const BaseLimits& limits, const OdometryWatchParams& params = {})
-      : limits_{limits}, params_{params} {}
+      : limits_{limits}, params_{params}, rhythm_{params.rhythm} {}
 
   /// @param state  as the base says it @param commands  given so far
   void receive(Time now, Time stamp, const BaseState& state, bool jumped, const CommandHistory& commands);
@@ -37,7 +36,6 @@ class OdometryWatch {
 
  private:
   void watch_for_freeze(Time now, Time stamp, const BaseState& state, const CommandHistory& commands);
-  void watch_for_gaps(double gap);
 
   BaseLimits limits_;
   OdometryWatchParams params_;
@@ -48,8 +46,7 @@ class OdometryWatch {
   double expected_way_ = 0.0;  ///< [m] of the rim, since the odometry last changed
   std::optional<Time> frozen_;
   std::optional<Time> jumped_;
-  double usual_gap_ = 0.0;  ///< [s] between stamps
-  double missing_ = 0.0;    ///< share of the messages, lately
+  MessageRhythm rhythm_;
 };
 
 }  // namespace docent::collision_avoidance

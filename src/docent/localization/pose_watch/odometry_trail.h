@@ -13,10 +13,13 @@ namespace docent::localization {
 /// others get is in the odometry's own frame, `raw`.
 class OdometryTrail {
  public:
+  explicit OdometryTrail(const motion_models::BaseReach& base = {}) : unbroken_{base} {}
+
   void add(Time stamp, const Pose2& raw_from_base);
 
-  /// None: nobody knows, it is too old or too new.
-  [[nodiscard]] std::optional<Pose2> at(Time stamp) const { return history_.at(stamp); }
+  /// Beyond the newest reading it is carried on as the robot went: odometry may be on its way. None: nobody knows, it
+  /// is too old or too new.
+  [[nodiscard]] std::optional<Pose2> at(Time stamp) const;
   [[nodiscard]] bool empty() const { return history_.empty(); }
   [[nodiscard]] const Pose2& latest() const { return history_.latest(); }    ///< @pre not empty
   [[nodiscard]] Time latest_time() const { return history_.latest_time(); }  ///< @pre not empty

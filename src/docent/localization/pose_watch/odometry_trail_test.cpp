@@ -40,5 +40,24 @@ TEST(OdometryTrail, AJumpIsTakenOnceByWhatWasSeenSince) {
   EXPECT_FALSE(trail.take_jump(at(2.1)));
 }
 
+TEST(OdometryTrail, IsCarriedOnForAMoment) {
+  OdometryTrail trail;
+  for (int i = 0; i < 20; ++i) trail.add(at(0.05 * i), {0.0, 0.0, Angle::radians(0.06 * i)});
+  EXPECT_NEAR(trail.at(at(1.05))->theta.radians(), 1.2 * 1.05, 1e-6);
+  EXPECT_FALSE(trail.at(at(1.3)));
+}
+
+TEST(OdometryTrail, ClocksThatAreSetBackBeginAnewWithoutAJump) {
+  OdometryTrail trail;
+  for (int i = 0; i < 20; ++i) trail.add(at(0.1 * i), {0.05 * i, 0.0, {}});
+  trail.add(at(1.85), {0.93, 0.0, {}});
+  EXPECT_NEAR(trail.latest().x, 0.95, 1e-9) << "that one was overtaken";
+  for (int i = 20; i < 25; ++i) trail.add(at(0.1 * i - 1.0), {0.05 * i, 0.0, {}});
+  EXPECT_NEAR(trail.latest().x, 1.2, 1e-9);
+  EXPECT_EQ(trail.latest_time(), at(1.4));
+  EXPECT_FALSE(trail.at(at(1.0))) << "by which clock?";
+  EXPECT_FALSE(trail.take_jump(at(1.4)));
+}
+
 }  // namespace
 }  // namespace docent::localization::odometry_trail_test

@@ -13,6 +13,7 @@ PoseWatch::PoseWatch(std::unique_ptr<Localizer> localizer, const std::vector<Pos
       params_{params},
       sweeps_{base_from_laser},
       rounds_{base_from_laser.size()},
+      odometry_{params.base},
       checkpoints_{std::move(checkpoints)} {
   if (const auto before = checkpoints_.restore(now))
     localizer_->start_at(before->modes, before->odom_from_robot, before->time);

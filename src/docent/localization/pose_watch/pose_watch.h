@@ -14,9 +14,10 @@
 namespace docent::localization {
 
 struct PoseWatchParams {
-  PersonFilterParams people;  ///< the inverse filter
-  double max_range = 10.0;    ///< [m] of the lasers
-  double person_range = 6.0;  ///< [m], > 0: how far away people are looked for
+  PersonFilterParams people;      ///< the inverse filter
+  double max_range = 10.0;        ///< [m] of the lasers
+  double person_range = 6.0;      ///< [m], > 0: how far away people are looked for
+  motion_models::BaseReach base;  ///< what no base can do is a jump of its odometry
 };
 
 /// Watches where the robot is: gives its localizer the sweeps of all lasers and odometry as they come, and says when

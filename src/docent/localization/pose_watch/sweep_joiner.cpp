@@ -10,6 +10,9 @@ SweepJoiner::SweepJoiner(const std::vector<Pose2>& base_from_laser) : lasers_(ba
 
 void SweepJoiner::keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
   Laser& kept = lasers_[laser];
+  const bool is_double = stamp == kept.stamp && std::equal(reading.ranges.begin(), reading.ranges.end(),
+                                                           kept.ranges.begin(), kept.ranges.end());
+  if (is_double) return;
   kept.stamp = stamp;
   kept.reading = reading;
   kept.reading.ranges = {};

@@ -71,6 +71,14 @@ TEST_F(SweepJoiner, WaitsForTheOdometryOfThen) {
   EXPECT_EQ(joined->odom_from_base.x, 0.2);
 }
 
+TEST_F(SweepJoiner, AScanThatComesTwiceIsNoNewOne) {
+  odometry.add(at(0.5), {});
+  see(0, at(0.5), 2.0F);
+  ASSERT_TRUE(joiner.join(odometry));
+  see(0, at(0.5), 2.0F);
+  EXPECT_FALSE(joiner.join(odometry));
+}
+
 TEST_F(SweepJoiner, OfEachLaserTheNewestScanCounts) {
   odometry.add(at(0.0), {});
   see(0, at(0.0), 2.0F);

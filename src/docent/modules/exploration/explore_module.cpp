@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/modules/shared/belief_cells.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
@@ -113,13 +114,17 @@ class ExploreModule final : public Module {
     surveyor_.note_people(tracked);
   }
 
+  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
+    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
+  }
+
   void move(const nav_msgs::Odometry& odometry) {
-    surveyor_.move(from_message(odometry.header.stamp),
+    surveyor_.move(in_local_time("odometry", odometry.header),
                    {from_message(odometry.pose.pose), {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
   }
 
   void see(std::size_t laser, const sensor_msgs::LaserScan& scan) {
-    surveyor_.keep(laser, from_message(scan.header.stamp),
+    surveyor_.keep(laser, in_local_time("laser " + std::to_string(laser), scan.header),
                    {scan.ranges, Angle::radians(scan.angle_min), scan.angle_increment, scan.range_min, scan.range_max});
     if (laser != 0) return;
     if (const auto sight = surveyor_.sight()) person_beams_.publish(sight_message(*sight));
@@ -196,6 +201,7 @@ class ExploreModule final : public Module {
   void publish_state() { exploration_.publish(report_message(surveyor_.report(), bus_.now())); }
 
   transport::Bus& bus_;
+  collision_avoidance::LocalTime local_time_;
   planning::Surveyor surveyor_;
   transport::Publisher<docent_msgs::Belief> belief_;
   transport::Publisher<docent_msgs::Target> target_;

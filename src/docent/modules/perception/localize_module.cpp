@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/localization/judgement/hindrance.h"
 #include "docent/localization/markov/markov_localizer.h"
@@ -101,6 +102,8 @@ std::vector<std::string> names_of_scans(const robot::RobotBody& body) {
   return names;
 }
 
+motion_models::BaseReach reach_of(const robot::RobotBody& body) { return {body.max_speed, body.max_turn_rate}; }
+
 class LocalizeModule final : public Module {
  public:
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
@@ -130,7 +133,7 @@ class LocalizeModule final : public Module {
         watch_{std::move(believer.localizer),
                mounts_of(body_.scanners),
                localization::CheckpointKeeper{context.state / "localize.yaml", map_hash_},
-               {params.people, params.markov.sensor.max_range, params.person_range},
+               {params.people, params.markov.sensor.max_range, params.person_range, reach_of(body_)},
                bus_.now()},
         sonars_{std::move(believer.sonars)},
         odometry_silence_{{"odom"}, kSilent},
@@ -143,7 +146,7 @@ class LocalizeModule final : public Module {
     publish_belief(watch_.start(bus_.now()));
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_silence_.hear(0, bus_.now());
-      watch_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
+      watch_.move(in_local_time("odometry", odometry.header.stamp), from_message(odometry.pose.pose));
       look_if_due();
     });
     scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
@@ -166,10 +169,15 @@ class LocalizeModule final : public Module {
     return {};
   }
 
+  /// Clocks of other computers are apart, drift, and are set.
+  [[nodiscard]] Time in_local_time(const std::string& source, const builtin_interfaces::Time& stamp) {
+    return local_time_.receive(source, bus_.now(), from_message(stamp));
+  }
+
   void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
     scan_silence_.hear(laser, bus_.now());
     watch_.see(
-        laser, from_message(scan.header.stamp),
+        laser, in_local_time("laser " + std::to_string(laser), scan.header.stamp),
         {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
          static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)},
         bus_.now());
@@ -188,7 +196,7 @@ class LocalizeModule final : public Module {
     const auto index = body_.sonar_of(range.header.frame_id);
     if (!index) return;
     sonar_silence_.hear(0, bus_.now());
-    const Time stamp = from_message(range.header.stamp);
+    const Time stamp = in_local_time("sonars", range.header.stamp);
     const auto odom_from_base = watch_.odom_from_base_at(stamp);
     if (!odom_from_base) return;
     sonars_->hear({stamp, *index, body_.base_from_sonar(*index), *odom_from_base, static_cast<double>(range.range),
@@ -240,6 +248,7 @@ class LocalizeModule final : public Module {
   localization::PoseWatch watch_;
   std::shared_ptr<localization::SonarEvidence> sonars_;  ///< beside the lasers; null: they take no part
   std::shared_ptr<const ScannerReaders> scanners_;
+  collision_avoidance::LocalTime local_time_;
   localization::SensorSilence odometry_silence_;
   localization::SensorSilence scan_silence_;
   localization::SensorSilence sonar_silence_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "docent/collision_avoidance/body/outline_distance.h"
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/shared/grid_message.h"
@@ -36,8 +37,9 @@ class MapModule final : public Module {
     publish_full();
 
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
-    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
-                                       [this](const auto& odometry) { pose_.on_odometry(odometry); });
+    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
+      pose_.on_odometry(odometry, in_local_time("odometry", odometry.header));
+    });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { take(i, scan); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
@@ -66,14 +68,20 @@ class MapModule final : public Module {
   struct Sight {
     sensor_msgs::LaserScan scan;
     Time received{};
+    Time stamp{};                   ///< local time
     Pose2 map_from_laser;           ///< when it was taken
     std::vector<Point2> endpoints;  ///< [m], map
     bool is_placed = false;         ///< the two above are of this scan
   };
 
+  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
+    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
+  }
+
   void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
     sights_[laser].scan = scan;
     sights_[laser].received = bus_.now();
+    sights_[laser].stamp = in_local_time("laser " + std::to_string(laser), scan.header);
     sights_[laser].is_placed = false;
   }
 
@@ -83,7 +91,7 @@ class MapModule final : public Module {
     const auto& scan = sight.scan;
     if (scan.ranges.empty() || bus_.now() - sight.received > kStaleSight) return false;
     if (sight.is_placed) return true;
-    const auto map_from_base = pose_.map_from_base_at(from_message(scan.header.stamp));
+    const auto map_from_base = pose_.map_from_base_at(sight.stamp);
     if (!map_from_base) return false;
     sight.map_from_laser = *map_from_base * base_from_laser_[laser];
     sight.endpoints.clear();
@@ -121,13 +129,14 @@ class MapModule final : public Module {
 
   template <class Add>
   void take(const sensor_msgs::Range& range, const Pose2& base_from_sensor, const Add& add) {
-    const auto map_from_base = pose_.map_from_base_at(from_message(range.header.stamp));
+    const std::string ring = range.radiation_type == 0 ? "sonars" : "infrared";
+    const auto map_from_base = pose_.map_from_base_at(in_local_time(ring, range.header));
     if (!pose_.localized() || !map_from_base) return;
     add(mapping::ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
   }
 
   void feel(const docent_msgs::Tactile& tactile) {
-    const auto map_from_base = pose_.map_from_base_at(from_message(tactile.header.stamp));
+    const auto map_from_base = pose_.map_from_base_at(in_local_time("tactile", tactile.header));
     if (!pose_.localized() || !map_from_base || tactile.segments.empty()) return;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(tactile.segments.size());
     for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
@@ -181,6 +190,7 @@ class MapModule final : public Module {
   std::vector<Sight> sights_;           ///< [scanners] newest sweeps
   transport::Publisher<nav_msgs::OccupancyGrid> live_map_;
   transport::Publisher<docent_msgs::LiveMapUpdate> updates_;
+  collision_avoidance::LocalTime local_time_;
   PoseTracker pose_;
   std::vector<mapping::LaserLook> looks_;
   Time full_stamp_{};

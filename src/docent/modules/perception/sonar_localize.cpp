@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/localization/belief/checkpoint.h"
+#include "docent/localization/pose_watch/odometry_trail.h"
 #include "docent/localization/sonar/tracker/gaussian_belief.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/shared/initial_pose.h"
-#include "docent/motion_models/odometry_history.h"
 
 namespace docent::modules {
 namespace {
@@ -46,8 +47,8 @@ class SonarLocalizeModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     const Time now = bus_.now();
-    if (now - odometry_received_ > kSilent) return {"degraded", "no odom"};
-    if (now - sonar_received_ > kSilent) return {"degraded", "no sonar"};
+    if (now - received_.odometry > kSilent) return {"degraded", "no odom"};
+    if (now - received_.sonar > kSilent) return {"degraded", "no sonar"};
     if (!localized()) return {"degraded", "I do not know where I am"};
     return {};
   }
@@ -59,11 +60,10 @@ class SonarLocalizeModule final : public Module {
   }
 
   void on_odometry(const nav_msgs::Odometry& odometry) {
-    odometry_received_ = bus_.now();
-    const Time stamp = from_message(odometry.header.stamp);
-    if (!odometry_.empty() && stamp <= odometry_.latest_time()) return;  // late
-    const Pose2 odom_from_robot = from_message(odometry.pose.pose);
-    odometry_.add(stamp, odom_from_robot);
+    received_.odometry = bus_.now();
+    const Time stamp = local_time_.receive("odometry", bus_.now(), from_message(odometry.header.stamp));
+    odometry_.add(stamp, from_message(odometry.pose.pose));
+    const Pose2 odom_from_robot = odometry_.latest();
     if (restored_) {
       // What odometry did while nobody listened, unless it began anew.
       if (distance(restored_->position(), odom_from_robot.position()) < localization::kCheckpointWay)
@@ -76,8 +76,9 @@ class SonarLocalizeModule final : public Module {
   void on_sonar(const sensor_msgs::Range& range) {
     const auto index = body_.sonar_of(range.header.frame_id);
     if (!index) return;
-    sonar_received_ = bus_.now();
-    const auto odom_from_robot = odometry_.at(from_message(range.header.stamp));
+    received_.sonar = bus_.now();
+    const auto odom_from_robot =
+        odometry_.at(local_time_.receive("sonars", bus_.now(), from_message(range.header.stamp)));
     if (!odom_from_robot) return;
     tracker_.hear(
         {*index, body_.base_from_sonar(*index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
@@ -94,10 +95,13 @@ class SonarLocalizeModule final : public Module {
     return {};
   }
 
+  /// In the odometry's own frame, as others see it.
+  [[nodiscard]] Pose2 raw_from_robot() const { return odometry_.in_raw(odometry_.latest(), odometry_.latest_time()); }
+
   void tell() {
     if (odometry_.empty()) return;
     const Time stamp = odometry_.latest_time();
-    publish_belief(stamp, odometry_.latest());
+    publish_belief(stamp, raw_from_robot());
     publish_person_beams(stamp);
     if (!localized()) return;
     publish_transform(stamp);
@@ -129,7 +133,7 @@ class SonarLocalizeModule final : public Module {
   }
 
   void publish_transform(Time stamp) {
-    transforms_.publish(odom_in_map_message(tracker_.map_from_robot() * inverse(odometry_.latest()), stamp));
+    transforms_.publish(odom_in_map_message(tracker_.map_from_robot() * inverse(raw_from_robot()), stamp));
   }
 
   void publish_pose(Time stamp) {
@@ -141,7 +145,7 @@ class SonarLocalizeModule final : public Module {
     saved_ = bus_.now();
     // A checkpoint that cannot be written costs a restarted robot its place, which it then must be told.
     (void)localization::save_localizer_checkpoint(
-        {map_hash_, stamp, odometry_.latest(), {{tracker_.map_from_robot(), tracker_.covariance(), 1.0}}},
+        {map_hash_, stamp, raw_from_robot(), {{tracker_.map_from_robot(), tracker_.covariance(), 1.0}}},
         checkpoint_path_);
   }
 
@@ -165,10 +169,13 @@ class SonarLocalizeModule final : public Module {
   transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
   transport::Publisher<docent_msgs::PersonBeams> person_beams_;
-  motion_models::OdometryHistory odometry_;
+  collision_avoidance::LocalTime local_time_;
+  localization::OdometryTrail odometry_;
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
-  Time odometry_received_{};
-  Time sonar_received_{};
+  struct Received {
+    Time odometry{}, sonar{};
+  };
+  Received received_;
   Time saved_{};
 };
 

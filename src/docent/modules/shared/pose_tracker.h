@@ -20,10 +20,12 @@ class PoseTracker {
     map_from_odom_ = Pose2{best.x, best.y, Angle::radians(best.theta)} * inverse(from_message(belief.odom_pose));
     belief_stamp_ = from_message(belief.header.stamp);
   }
-  void on_odometry(const nav_msgs::Odometry& odometry) {
-    odom_from_base_ = from_message(odometry.pose.pose);
-    history_.add(from_message(odometry.header.stamp),
-                 {*odom_from_base_, {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+  void on_odometry(const nav_msgs::Odometry& odometry) { on_odometry(odometry, from_message(odometry.header.stamp)); }
+  /// @param taken  the stamp, by the clock of whoever asks for poses
+  void on_odometry(const nav_msgs::Odometry& odometry, Time taken) {
+    const Pose2 odom_from_base = from_message(odometry.pose.pose);
+    history_.add(taken, {odom_from_base, {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
+    odom_from_base_ = history_.newest().odom_from_base;
   }
 
   [[nodiscard]] bool localized() const { return localized_; }

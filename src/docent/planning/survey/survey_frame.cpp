@@ -8,8 +8,8 @@ SurveyFrame::SurveyFrame(const Pose2& home, std::optional<localization::Localize
     : home_{home}, before_{std::move(before)} {}
 
 void SurveyFrame::move(Time stamp, const collision_avoidance::BaseState& state) {
-  odom_from_base_ = state.odom_from_base;
   odometry_.add(stamp, state);
+  odom_from_base_ = odometry_.newest().odom_from_base;  // that one may have been overtaken
 }
 
 Pose2 SurveyFrame::start_of(const Pose2& odom_from_base) const {

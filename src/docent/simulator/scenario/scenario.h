@@ -8,6 +8,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
+#include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::simulator {
@@ -158,7 +159,7 @@ struct Moment {
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
-               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie>
+               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -171,8 +172,8 @@ struct Scenario {
 
 /// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
 /// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump,
-/// lie. With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase has lasted
-/// so long. Error: "FILE:LINE: ...".
+/// lie, transport. With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase
+/// has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -9,6 +9,7 @@ namespace docent::apps::ablations {
 struct AblationParams {
   bool blind_to_people = false;    ///< avoid: sees virtual measurements and touch only
   bool without_watches = false;    ///< avoid: takes every sensor and belief for well
+  bool doubts_odometry = false;    ///< avoid: takes for a jump what the base does every day
   bool dead_reckoning = false;     ///< localize: odometry alone after the first "here"
   bool ignores_reach = false;      ///< localize: holds far readings against what it expects within its reach
   double best_pose_error_x = 0.0;  ///< [m], map: localize publishes the best hypothesis so far off (its cells are true)
@@ -33,6 +34,7 @@ struct AblationParams {
   void visit(V& v) {
     v("blind_to_people", blind_to_people);
     v("without_watches", without_watches);
+    v("doubts_odometry", doubts_odometry);
     v("dead_reckoning", dead_reckoning);
     v("ignores_reach", ignores_reach);
     v("best_pose_error_x", best_pose_error_x);

@@ -42,6 +42,7 @@ void amend_driving(robot::Amendments& amendments, const AblationParams& params) 
   amendments.add<collision_avoidance::AvoiderParams>([params](auto& avoider) {
     avoider.blind_to_people = params.blind_to_people;
     avoider.watches = !params.without_watches;
+    if (params.doubts_odometry) avoider.odometry = {.margin = 0.0, .linear_noise = 0.02, .angular_noise = 0.02};
   });
   amendments.add<collision_avoidance::VirtualMeasurementParams>(
       [params](auto& hazards) { hazards.best_pose_only = params.best_pose_only; });

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "docent/base/time.h"
-#include "docent/collision_avoidance/watches/clock_offset.h"
+#include "docent/collision_avoidance/clocks/clock_offset.h"
 
 namespace docent::collision_avoidance {
 
@@ -20,7 +20,8 @@ struct LocalTimeParams {
 /// A source whose least delay may be the honest way of a message is taken to keep our clock: its stamps stand as they
 /// are. Any other keeps a clock of its own, and its offset is the least delay of all sources that may share it: those
 /// whose least delays differ by no more than an honest way. So sources of one computer stay together to the bit,
-/// however long each takes. An offset below the honest way cannot be told from the way itself and remains as an error.
+/// however long each takes. An offset below the honest way cannot be told from the way itself and remains as an error;
+/// but a clock that is set back meanwhile, by whatever, is followed.
 class LocalTime {
  public:
   explicit LocalTime(const LocalTimeParams& params = {}) : params_{params} {}

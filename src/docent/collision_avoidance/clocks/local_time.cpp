@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/watches/local_time.h"
+#include "docent/collision_avoidance/clocks/local_time.h"
 
 #include <algorithm>
 #include <optional>
@@ -15,9 +15,11 @@ Time LocalTime::receive(const std::string& source, Time now, Time stamp, double 
 Time LocalTime::receive_handed_on(const std::string& topic, Time now, Time stamp) {
   ClockOffset& clock = handed_on_[topic];
   clock.receive(now, stamp);
+  // Who turns stamps into local time before it hands them on, as `localize` does, keeps our clock.
   std::optional<double> offset;
+  if (clock.least_delay() >= -params_.disagreement) offset = 0.0;
   for (const auto& [name, source] : sources_) {
-    const double candidate = offset_of(source);
+    const double candidate = offset_of(source) - source.clock.set_back();
     if (candidate <= clock.least_delay() + params_.disagreement)
       offset = std::max(offset.value_or(candidate), candidate);
   }
@@ -25,12 +27,15 @@ Time LocalTime::receive_handed_on(const std::string& topic, Time now, Time stamp
 }
 
 double LocalTime::offset_of(const Source& source) const {
-  double least = source.clock.least_delay();
+  // As if no clock had been set back: by how much is known of each.
+  const double own = source.clock.least_delay() - source.clock.set_back();
+  double least = own;
   for (const auto& [name, other] : sources_) {
-    const double delay = other.clock.least_delay();
-    if (delay >= source.clock.least_delay() - source.honest_way) least = std::min(least, delay);
+    const double delay = other.clock.least_delay() - other.clock.set_back();
+    if (delay >= own - source.honest_way) least = std::min(least, delay);
   }
-  return least >= -params_.disagreement && least <= source.honest_way ? 0.0 : least;
+  const bool is_ours = least >= -params_.disagreement && least <= source.honest_way;
+  return source.clock.set_back() + (is_ours ? 0.0 : least);
 }
 
 }  // namespace docent::collision_avoidance

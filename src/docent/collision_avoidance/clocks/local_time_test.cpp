@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/watches/local_time.h"
+#include "docent/collision_avoidance/clocks/local_time.h"
 
 #include <gtest/gtest.h>
 
@@ -75,6 +75,25 @@ TEST(LocalTime, AClockThatWasSetIsFollowed) {
   for (int i = 0; i < 10; ++i) (void)local.receive("laser", at(100.0 + 0.1 * i), at(100.0 + 0.1 * i));
   for (int i = 10; i < 13; ++i) (void)local.receive("laser", at(100.0 + 0.1 * i), at(110.0 + 0.1 * i));
   EXPECT_NEAR(to_seconds(local.receive("laser", at(101.3), at(111.1))), 101.1, 1e-3);
+}
+
+TEST(LocalTime, AClockThatIsSetBackIsFollowedBesideOthersThatAreNot) {
+  for (const double back : {0.12, 0.3, 5.0}) {
+    SCOPED_TRACE(back);
+    LocalTime local;
+    double now = 100.0;
+    for (int i = 0; i < 50; ++i, now += 0.1) {
+      (void)local.receive("odometry", at(now), at(now - 0.01));
+      (void)local.receive("laser", at(now), at(now - 0.06));
+    }
+    for (int i = 0; i < 10; ++i, now += 0.1) {
+      (void)local.receive("odometry", at(now), at(now - 0.01 - back));
+      (void)local.receive("laser", at(now), at(now - 0.06));
+    }
+    EXPECT_NEAR(to_seconds(local.receive("odometry", at(now), at(now - 0.01 - back))), now - 0.01, 2e-3);
+    EXPECT_EQ(local.receive("laser", at(now), at(now - 0.06)), at(now - 0.06));
+    EXPECT_EQ(local.receive_handed_on("belief", at(now), at(now - 0.1)), at(now - 0.1)) << "in local time already";
+  }
 }
 
 }  // namespace
