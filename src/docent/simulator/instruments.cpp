@@ -99,7 +99,6 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          bus.publisher(topics::scan_topic(scanner.name)),
                          {},
                          {},
-                         {},
                          0,
                          {}});
     scanners_.back().laser.see_body(hardware.posts);
