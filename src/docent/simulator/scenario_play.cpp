@@ -93,8 +93,6 @@ double SimulatedMuseum::Impl::hazard_distance(Point2 point) const {
 
 void SimulatedMuseum::Impl::play(const SensorFault& event) {
   instruments_.set_fault(event, time_);
-  constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
-                                                           "sonar",       "odom",       "tactile",    "infrared"};
   offer("fault", kSensorNames[static_cast<std::size_t>(event.sensor)]);
 }
 

@@ -14,8 +14,6 @@ namespace {
 constexpr double kFar = 1e5;      // [m]
 constexpr double kLongest = 1e8;  // [s]
 
-constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
-                                                         "sonar",       "odom",       "tactile",    "infrared"};
 constexpr std::array kFaults{"dead", "frozen", "half", "late", "short", "deaf", "storm"};
 constexpr std::array kLies{"units",  "silent", "sector", "too_near", "blind_near",
                            "offset", "scaled", "stale",  "looped"};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct Kidnap {
 };
 enum class Sensor { laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared };
 inline constexpr std::size_t kSensors = 8;
+/// As files call them.
+inline constexpr std::array<const char*, kSensors> kSensorNames{
+    "laser_front", "laser_rear", "laser_left", "laser_right", "sonar", "odom", "tactile", "infrared"};
 enum class FaultKind {
   dead,    ///< no message at all
   frozen,  ///< the last reading again and again, with fresh stamps

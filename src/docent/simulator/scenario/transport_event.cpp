@@ -9,8 +9,6 @@
 namespace docent::simulator {
 namespace {
 
-constexpr std::array<const char*, kSensors> kSensorNames{"laser_front", "laser_rear", "laser_left", "laser_right",
-                                                         "sonar",       "odom",       "tactile",    "infrared"};
 constexpr double kLongestWire = 1e8;  // [s]
 
 }  // namespace
