@@ -214,8 +214,8 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
     ++met_[static_cast<std::size_t>(person)];
   }
   blocked_share_ += static_cast<double>(blocked) / beams_;
-  scanner.lies.tell(now, {message.ranges, message.range_min, message.range_max, message.angle_min,
-                          message.angle_increment});
+  scanner.lies.tell(now,
+                    {message.ranges, message.range_min, message.range_max, message.angle_min, message.angle_increment});
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 
