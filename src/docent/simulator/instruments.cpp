@@ -240,8 +240,8 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
     ++scanner.blocked;
     ++scanner.met[static_cast<std::size_t>(person)];
   }
-  scanner.lies.tell(now, {message.ranges, message.range_min, message.range_max, message.angle_min,
-                          message.angle_increment});
+  scanner.lies.tell(now,
+                    {message.ranges, message.range_min, message.range_max, message.angle_min, message.angle_increment});
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 

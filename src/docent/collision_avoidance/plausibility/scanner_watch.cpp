@@ -224,7 +224,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base) 
   base_from_sensor_ = sweep.base_from_sensor;
   newest_ = sweep.stamp;
   judge_form(sweep);
-  const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
+  const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor, params_.samples);
   if (!form_.has_wrong_units) {
     if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
     judge_silence(view);

@@ -25,6 +25,7 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
+  std::size_t samples = 90;       ///< of a sweep: all comparisons are a few of these
   double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
   double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again

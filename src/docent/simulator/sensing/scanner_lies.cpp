@@ -35,7 +35,8 @@ double usual_amount(Lie lie) {
 
 void hide_sector(const ScanOnItsWay& scan, double bearing, double degrees) {
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const double at = static_cast<double>(scan.first_bearing) + static_cast<double>(i) * static_cast<double>(scan.bearing_step);
+    const double at =
+        static_cast<double>(scan.first_bearing) + static_cast<double>(i) * static_cast<double>(scan.bearing_step);
     if (std::abs(Angle::radians(at - bearing).radians()) <= 0.5 * degrees * std::numbers::pi / 180.0)
       scan.ranges[i] = kNothing;
   }
