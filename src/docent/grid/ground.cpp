@@ -15,10 +15,4 @@ double room_on_ground(const Polygon& area, std::span<const Polygon> hazards, Poi
   return room;
 }
 
-double border_clearance_of(double sigma, double margin) {
-  constexpr double kBin = 0.05;    // [m] by which measurements are short at most
-  constexpr double kSigmas = 2.0;  // within which 99 % of a belief of such cells lie, in one direction
-  return margin + kBin + kSigmas * sigma;
-}
-
 }  // namespace docent

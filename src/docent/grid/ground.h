@@ -14,8 +14,4 @@ namespace docent {
 [[nodiscard]] double room_on_ground(const Polygon& area, std::span<const Polygon> hazards, Point2 centre,
                                     double robot_radius, const Clearance& clearance);
 
-/// The least `Clearance::border` with which avoidance lets a robot pass whose belief has that standard deviation [m]
-/// along each axis: it keeps its margin from the border for 99 % of the belief, which it measures in bins.
-[[nodiscard]] double border_clearance_of(double sigma, double margin = 0.07);
-
 }  // namespace docent

@@ -21,10 +21,5 @@ TEST(Ground, TheBorderBindsTheCentreAndAHazardTheBody) {
   EXPECT_NEAR(room_on_ground({}, plate, {20.0, 2.5}, 0.25, clearance), 12.45, 1e-9);
 }
 
-TEST(Ground, ABroaderBeliefNeedsMoreRoomToTheBorder) {
-  EXPECT_NEAR(border_clearance_of(0.04), Clearance{}.border, 1e-9) << "of a robot that is sure: as the planner plans";
-  EXPECT_NEAR(border_clearance_of(0.08), 0.28, 1e-9);
-}
-
 }  // namespace
 }  // namespace docent

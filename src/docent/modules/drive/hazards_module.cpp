@@ -8,6 +8,7 @@
 #include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/belief_cells.h"
 
 namespace docent::modules {
 
@@ -93,6 +94,13 @@ class HazardsModule final : public Module {
       squares_.clear();
     }
     const auto of_hazards = hazards_.measure(poses_, squares_);
+    if (belief.map_hash == kMapBeingMade && !belief.hypotheses.empty()) {
+      // The area begins where the robot did, and lies as far off as the map that is being made: no belief about a place
+      // in that map tells how far. It stands off what could be touched; hazards count from the whole belief.
+      const auto& here = belief.hypotheses.front();
+      poses_.assign(1, {{here.x, here.y}, here.theta, 1.0});
+      squares_.clear();
+    }
     const auto of_border = border_.measure(poses_, squares_);
     possible_mass_ = of_hazards.possible_mass;
 

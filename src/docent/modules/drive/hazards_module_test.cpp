@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "docent/modules/shared/belief_cells.h"
 #include "docent/modules/shared/module_bench.h"
 
 namespace docent::modules {
@@ -74,6 +75,19 @@ TEST_F(HazardsModule, AHundredthOfMassOnTheCoarseGridCounts) {
   beliefs.publish(belief);
   run(0.01);
   EXPECT_EQ(ahead(), scans.back().range_max);
+}
+
+TEST_F(HazardsModule, WhileTheMapIsMadeTheBorderCountsFromTheLikeliestPlaceAndHazardsFromAll) {
+  start();
+  auto belief = belief_at({{3, 10}, {2.8, 10}, {8, 10}}, 0.0);
+  beliefs.publish(belief);
+  run(0.01);
+  const float border = scans.back().ranges[kDirections], hazard = ahead();
+  belief.map_hash = kMapBeingMade;
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_GT(scans.back().ranges[kDirections], border + 0.1F);
+  EXPECT_EQ(ahead(), hazard);
 }
 
 TEST_F(HazardsModule, RepeatsALastMeasurementWithItsStampUntilItIsTooOld) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ docent_msgs::PersonBeams sight_message(const planning::Surveyor::Sight& sight) {
 
 docent_msgs::Belief place_message(const planning::Surveyor::Place& place, Time now) {
   docent_msgs::Belief message = belief_cells_message(belief_of(place.pose), now);
-  message.map_hash = planning::SurveyStore::kMapHash;
+  static_assert(std::string_view{kMapBeingMade} == planning::SurveyStore::kMapHash);
+  message.map_hash = kMapBeingMade;
   message.cell_size = static_cast<float>(place.pose.sigma);
   message.heading_step = static_cast<float>(place.pose.sigma_heading);
   message.p_lost = 0.0;

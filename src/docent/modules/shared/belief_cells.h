@@ -6,6 +6,9 @@
 
 namespace docent::modules {
 
+/// Belief::map_hash of a robot that is making its map.
+inline constexpr const char* kMapBeingMade = "exploration";
+
 /// The listed cells and the modes of a belief, in the frame `map`; nothing of its rest. O(cells).
 [[nodiscard]] docent_msgs::Belief belief_cells_message(const localization::BeliefSummary& summary, Time stamp);
 

@@ -50,9 +50,8 @@ class ExplorationDrive {
   /// Plans anew. O(cells of the map)
   /// @param waits  it is held by hand, or knows no way for another reason: no time counts
   void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now, Hindrance hindrance = Hindrance::unknown);
-  /// See `Explorer`.
+  /// See `Explorer::set_doubt`.
   void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
-  void set_place_doubt(double sigma) { explorer_.set_place_doubt(sigma); }
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;

@@ -91,7 +91,7 @@ Result<void> ExplorerParams::validate() const {
 }
 
 Explorer::Explorer(ExplorerParams params, std::vector<Polygon> hazards, Polygon area)
-    : params_{params}, area_{std::move(area)}, border_margin_{params.border_margin} {
+    : params_{params}, area_{std::move(area)} {
   for (Polygon& outline : hazards) {
     Hazard hazard{std::move(outline), {}, 0.0};
     for (const Point2 corner : hazard.outline)
@@ -107,14 +107,9 @@ bool Explorer::is_given_up(Point2 place, double within) const {
                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
-void Explorer::set_place_doubt(double sigma) {
-  border_margin_ = std::max(params_.border_margin, border_clearance_of(sigma));
-}
-
 Clearance Explorer::clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const {
   const double more = std::clamp(params_.doubt_sigmas * doubt_ - params_.doubt_free, 0.0, params_.most_doubt);
-  Clearance result{params_.wall_margin, params_.hazard_margin + (is_squeezing ? 0.0 : more), border_margin_};
-  if (is_squeezing) result.border = params_.border_margin;
+  Clearance result{params_.wall_margin, params_.hazard_margin + (is_squeezing ? 0.0 : more), params_.border_margin};
   if (!is_near) return result;
   if (!is_squeezing) result.hazards = params_.tight_margin;
   // From where the robot stands too near to the border all ways lead away from it.

@@ -28,7 +28,8 @@ struct ExplorerParams {
   double open_cost = 1.0;       ///< >= 0: extra cost, as a factor, at twice that
   double home_cost = 0.7;       ///< [m/m], >= 0: for each metre that a place is farther from home: loops stay short
   double switch_cost = 0.5;     ///< [m of free floor] by which another place must be nearer than the last one
-  double border_margin = 0.20;  ///< [m] from the centre to the area's border, as localize's planner; more by the belief
+  double border_margin = 0.14;  ///< [m] from the centre to the area's border. Avoidance keeps border_margin (0.07) and
+                                ///< a bin (0.05): what is left is for the cells' size
   double hazard_margin = 0.30;  ///< [m] kept from what only people know of, beyond the radius: the pose errs, too
   double doubt_sigmas = 1.0;    ///< >= 0: that much more, in sigmas of where such marks lie, as far as these are
   double doubt_free = 0.15;     ///< [m], >= 0: more than this, which the margin holds already;
@@ -92,9 +93,6 @@ class Explorer {
 
   /// How far off, by one standard deviation [m], what people have marked may lie from the robot's place on the map.
   void set_doubt(double sigma) { doubt_ = sigma; }
-  /// Standard deviation [m] of the robot's own place, along each axis: avoidance keeps that much farther from the
-  /// area's border, so ways do.
-  void set_place_doubt(double sigma);
   /// [m], map: what is near to it is explored first.
   void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
@@ -137,7 +135,6 @@ class Explorer {
   std::vector<Hazard> hazards_;
   Polygon area_;
   double doubt_ = 0.0;
-  double border_margin_;  ///< [m] with the robot's own doubt
   std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;

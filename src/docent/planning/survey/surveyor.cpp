@@ -48,10 +48,6 @@ bool Surveyor::is_held(Time now) const {
   return is_stopped_ || (steered_ && now - *steered_ < kAfterSteering);
 }
 
-double Surveyor::sigma() const {
-  return std::clamp(map_.poses().spread().position, params_.least_sigma, params_.most_sigma);
-}
-
 /// Where somebody walks nearby, things are people who stand.
 ExplorationDrive::Hindrance Surveyor::hindrance() const {
   constexpr double kNearby = 4.0;  // [m]
@@ -75,7 +71,6 @@ Surveyor::Step Surveyor::plan(Time now) {
   map_.look();
   if (order_ != ExplorationOrder::by_itself) return Step::looked;
   drive_.set_doubt(map_.poses().doubt_of_marks());
-  drive_.set_place_doubt(sigma());
   drive_.plan(map_.seen(), here->position(), is_held(now), now, hindrance());
   is_done_ = drive_.state() == ExplorationDrive::State::arrived;
   return Step::planned;
@@ -109,7 +104,8 @@ void Surveyor::keep_place(Time now) const {
 std::optional<Surveyor::Place> Surveyor::place() const {
   const auto here = frame_.map_from_base();
   if (!here) return std::nullopt;
-  return Place{{*here, sigma(), params_.sigma_heading}, *frame_.odom_from_base()};
+  const double sigma = std::clamp(map_.poses().spread().position, params_.least_sigma, params_.most_sigma);
+  return Place{{*here, sigma, params_.sigma_heading}, *frame_.odom_from_base()};
 }
 
 ExplorationDrive::Ahead Surveyor::ahead() const {

@@ -105,7 +105,6 @@ class Surveyor {
   [[nodiscard]] SurveyPhase phase() const;
   [[nodiscard]] bool is_held(Time now) const;
   [[nodiscard]] ExplorationDrive::Hindrance hindrance() const;
-  [[nodiscard]] double sigma() const;  ///< [m] of its place, along each axis
   void keep_place(Time now) const;
 
   SurveyorParams params_;
