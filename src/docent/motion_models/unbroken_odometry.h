@@ -16,7 +16,7 @@ struct BaseReach {
 };
 
 struct UnbrokenOdometryParams {
-  BaseReach base;
+  BaseReach base{};
   double margin = 1.5;  ///< of the base's speeds: who pushes or steers it by hand is faster than it drives itself
   double linear_noise = 0.06;    ///< [m] in a step that is none of the base
   double angular_noise = 0.087;  ///< [rad] likewise
