@@ -191,7 +191,7 @@ TEST(Transport, NoReadingInAHundredHoursIsAJumpThatWasNone) {
   for (const Day& day : days()) {
     for (const bool in_local_time : {false, true}) {
       for (const Exposure& exposure :
-           {Exposure{20.0, 3.0}, Exposure{50.0, 0.8}, Exposure{100.0, 0.4}, Exposure{8.0, 1.0}}) {
+           {Exposure{20.0, 2.0}, Exposure{50.0, 0.4}, Exposure{100.0, 0.2}, Exposure{8.0, 0.6}}) {
         SCOPED_TRACE(day.name + (in_local_time ? ", in local time, " : ", ") + std::to_string(exposure.rate) + " Hz");
         const Seen seen = live(day.wire, exposure, Listener{{}, in_local_time}, 11);
         EXPECT_EQ(seen.false_jumps, 0);

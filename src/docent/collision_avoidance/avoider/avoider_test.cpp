@@ -122,6 +122,24 @@ TEST(Avoider, TheClocksOfOtherComputersDoNotBlindIt) {
   }
 }
 
+TEST(Avoider, ASweepThatWasOvertakenHidesNothing) {
+  Rehearsal world;
+  world.box(-3, -3, 6, 3);
+  world.run(1.0);
+  const auto nearest_ahead = [&] {
+    double nearest = 10.0;
+    for (const auto& point : world.avoider.memory().points(world.now)) nearest = std::min(nearest, norm(point.in_odom));
+    return nearest;
+  };
+  EXPECT_NEAR(nearest_ahead(), 3.0, 0.1);
+  SensorSweep near{world.now - seconds(0.15), {}, -0.5, 0.02, 0.02, 10.0, std::vector<float>(50, 1.0F)};
+  world.avoider.add_sweep(world.now, 0, near);
+  EXPECT_NEAR(nearest_ahead(), 3.0, 0.1) << "it is of before";
+  near.stamp = near.stamp + seconds(0.01);
+  world.avoider.add_sweep(world.now, 0, near);
+  EXPECT_NEAR(nearest_ahead(), 1.0, 0.1) << "two in succession: the clock was set back";
+}
+
 TEST(Avoider, GetsFreeFromInsideAMargin) {
   Rehearsal world;
   world.box(-3, -3, 6, 3);

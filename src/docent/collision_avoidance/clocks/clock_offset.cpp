@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace docent::collision_avoidance {
 namespace {
@@ -14,12 +13,11 @@ constexpr double kHalf = 0.5;      // of a rise: who comes back so far was overt
 
 void ClockOffset::watch_for_set_back(double interval, Time stamp, double delay) {
   const bool is_pause = interval > params_.pause * interval_;
-  const double gap = std::max(interval, std::exchange(last_interval_, interval));
-  const double before = *std::min_element(delays_.begin(), delays_.end());
-  const double rise = delay - before;
-  // Who comes later for good and was overtaken besides has been silent just now.
-  const bool was_silent = gap > params_.pause * interval_ && gap > kHalf * rise;
-  if (stamp < newest_ && !suspicion_ && rise > params_.step && !was_silent) suspicion_ = {before, rise, delay};
+  const auto least_lately = [this] { return *std::min_element(delays_.begin(), delays_.end()); };
+  // A silence that explains why it comes later: nothing before it is of account.
+  if (is_pause && interval > kHalf * (delay - least_lately())) delays_.fill(delay);
+  const double before = least_lately();
+  if (stamp < newest_ && !suspicion_ && delay > before + params_.step) suspicion_ = {before, delay - before, delay};
   if (!suspicion_) {
     newest_ = std::max(newest_, stamp);
     return;

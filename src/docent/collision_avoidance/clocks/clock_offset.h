@@ -52,7 +52,6 @@ class ClockOffset {
   int early_count_ = 0;
   Time newest_{};          ///< stamp
   double interval_ = 0.0;  ///< [s] usual between two receipts
-  double last_interval_ = 0.0;
   double set_back_ = 0.0;
   static constexpr std::size_t kLately = 5;
   std::array<double, kLately> delays_{};  ///< [s] the last ones, in turn
