@@ -137,10 +137,11 @@ Result<std::vector<ChildSpec>> children_of(const RobotRun& options, const std::s
   // Where nobody may be put in front, the others step back.
   const bool may_raise = may_raise_priority();
   if (options.simulate) {
+    // It stands for hardware, which no other program holds up.
     auto words = command(kSimulatorProcess);
     const auto more = options.simulator.arguments();
     words.insert(words.end(), more.begin(), more.end());
-    children.push_back({kSimulatorProcess, std::move(words), may_raise ? 0 : kStepBack, false});
+    children.push_back({kSimulatorProcess, std::move(words), may_raise ? kUrgent : 0, false});
   }
   for (const auto& entry : modules::all_modules()) {
     if (!modules::runs(entry, *work)) continue;

@@ -31,7 +31,7 @@ constexpr std::array kModules{
     ModuleEntry{.name = "map", .make = make_map, .parameters = parameters_of_map, .marks = true},
     ModuleEntry{.name = "people", .make = make_people, .parameters = parameters_of_people, .explores = true, .marks = true},
     ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},
-    ModuleEntry{.name = "record", .make = make_record, .parameters = parameters_of_record, .sees_truth = true, .explores = true, .marks = true},
+    ModuleEntry{.name = "record", .make = make_record, .parameters = parameters_of_record, .is_prompt = true, .sees_truth = true, .explores = true, .marks = true},
     ModuleEntry{.name = "robot", .make = make_robot, .parameters = parameters_of_robot, .is_urgent = true, .explores = true, .marks = true},
     ModuleEntry{.name = "sound", .make = make_sound, .parameters = parameters_of_sound},
     ModuleEntry{.name = "buttons", .make = make_buttons, .parameters = parameters_of_buttons},

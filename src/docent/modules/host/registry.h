@@ -13,7 +13,7 @@ struct ModuleEntry {
   ModuleFactory make;
   ModuleParameters parameters;
   bool is_urgent = false;    ///< braking waits for it: it runs before others (architecture 10.15)
-  bool is_prompt = false;    ///< driving waits for it, braking does not: it runs before those that may wait
+  bool is_prompt = false;    ///< driving waits for it, or what it stamps: it runs before those that may wait
   bool sees_truth = false;   ///< record alone (architecture 10.1)
   bool keeps_cache = false;  ///< uses ModuleContext::cache
   bool explores = false;     ///< runs also while the robot maps a building
