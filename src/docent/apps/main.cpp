@@ -1,6 +1,7 @@
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
+#include "docent/apps/localize/calibrate_command.h"
 #include "docent/apps/localize/localize_command.h"
 #include "docent/apps/localize/map_command.h"
 #include "docent/apps/museum/check_command.h"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
                            museum_command::add_check_command, golog_command::add_golog_command}},
                          {"Look at recordings",
                           {localize_command::add_localize_command, localize_command::add_map_command,
+                           localize_command::add_calibrate_command,
                            with_robot(replay_command::add_replay_command, whole)}},
                          {"Tune", {config_command::add_config_command}},
                          {"Put it into a robot of your own", {up_command::add_run_command}}},

@@ -86,6 +86,7 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
       ring_{sonars_of(hardware), rng.stream("sonar")},
       infrared_{infrareds_of(hardware), rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
+      scale_{hardware.odometry_way, hardware.odometry_turn},
       has_tactile_{hardware.has_tactile},
       pings_{bus.publisher(topics::kSonar)},
       infrared_readings_{bus.publisher(topics::kInfrared)},
@@ -97,7 +98,8 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          scanner.frame,
                          {laser_of(scanner), scanner.base_from_scanner, rng.stream("laser_" + scanner.name)},
                          bus.publisher(topics::scan_topic(scanner.name)),
-                         {}});
+                         {},
+                         scanner.late});
     beams_ += scanners_.back().laser.params().beams;
   }
   last_pings_.resize(static_cast<std::size_t>(ring_.params().count));
@@ -170,7 +172,7 @@ void Instruments::publish_odometry(Time now, const Body& body) {
     --jump_parts_;
     odom_from_body_odom_ = odom_from_body_odom_ * body.odometry() * jump_part_ * inverse(body.odometry());
   }
-  const Pose2 odometry = odom_from_body_odom_ * body.odometry();
+  const Pose2 odometry = scale_.apply(odom_from_body_odom_ * body.odometry());
   message.pose.pose = to_message(odometry);
   const double dt = to_seconds(now - last_odometry_);
   if (has_odometry_ && dt > 0.0) {
@@ -208,6 +210,13 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
     ++met_[static_cast<std::size_t>(person)];
   }
   blocked_share_ += static_cast<double>(blocked) / beams_;
+  if (scanner.late > 0.0) {
+    bus_.after(seconds(scanner.late), [this, &scanner, message = std::move(message)]() mutable {
+      message.header.stamp = to_message(bus_.now());
+      emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, bus_.now());
+    });
+    return;
+  }
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 

@@ -56,6 +56,7 @@ class Instruments {
     LaserScanner laser;
     transport::Publisher<sensor_msgs::LaserScan> scans;
     std::optional<sensor_msgs::LaserScan> last;
+    double late = 0.0;  ///< [s], see Hardware
   };
   struct Fault {
     FaultKind kind;
@@ -89,6 +90,7 @@ class Instruments {
   bool has_odometry_ = false;
   Pose2 jump_part_;            ///< base_from_base that the next readings are off
   int jump_parts_ = 0;         ///< so many readings
+  OdometryScale scale_;
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
   bool has_tactile_;
   std::uint32_t tactile_scan_ = 0;

@@ -142,6 +142,10 @@ void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->check(output_folder())
       ->required();
   command->add_option("--start", options->start, "X,Y,DEG where the robot begins; without: the museum's home");
+  command
+      ->add_option("--scenario", options->run.scenario,
+                   "file of timed events, and of what is built or told otherwise than robot.yaml and --start say")
+      ->check(CLI::ExistingFile);
   command->add_option("--robot", options->run.robot, "robot.yaml; without: all defaults");
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--hours", options->most_hours, "virtual hours after which it is given up")

@@ -38,7 +38,7 @@ void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
 void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= inputs_.lasers() || odometry_.empty()) return;
   inputs_.hear_sweep(now, sweep.stamp, sensor);
-  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
+  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp) - seconds(sweep.late);
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
 }

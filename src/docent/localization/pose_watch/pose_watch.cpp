@@ -1,5 +1,6 @@
 #include "docent/localization/pose_watch/pose_watch.h"
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -20,6 +21,24 @@ PoseWatch::PoseWatch(std::unique_ptr<Localizer> localizer, const std::vector<Pos
 void PoseWatch::move(Time stamp, const Pose2& raw_from_base) {
   odometry_.add(stamp, raw_from_base);
   if (checkpoints_.is_contradicted_by(odometry_.latest())) localizer_->start_unknown();
+}
+
+/// The lasers were where they were; so the base is not where it was thought to be, by what this one has of the belief.
+void PoseWatch::mount(std::size_t laser, const Pose2& base_from_laser) {
+  constexpr double kMatters = 0.02;      // [m] and
+  constexpr double kMattersTurn = 0.01;  // [rad]: less lies within the belief
+  const Pose2 before = sweeps_.mount(laser, base_from_laser);
+  const Pose2 moved = before * inverse(base_from_laser);
+  if (norm(moved.position()) < kMatters && std::abs(moved.theta.radians()) < kMattersTurn) return;
+  if (!is_localized()) return localizer_->start_unknown();
+  const double share = 1.0 / static_cast<double>(sweeps_.lasers());
+  const Pose2 part{share * moved.x, share * moved.y, Angle::radians(share * moved.theta.radians())};
+  BeliefMode mode = best_mode();
+  mode.map_from_robot = mode.map_from_robot * part;
+  mode.covariance[0] += dot(part.position(), part.position());
+  mode.covariance[4] += dot(part.position(), part.position());
+  mode.covariance[8] += part.theta.radians() * part.theta.radians();
+  localizer_->start_at(std::span{&mode, 1}, localizer_->odom_from_robot(), belief_told_);
 }
 
 std::optional<PoseWatch::Look> PoseWatch::look(Time now) {

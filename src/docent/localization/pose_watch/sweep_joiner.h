@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "docent/base/time.h"
@@ -21,6 +22,11 @@ class SweepJoiner {
   explicit SweepJoiner(const std::vector<Pose2>& base_from_laser);
 
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
+  /// It is found to be mounted elsewhere. @returns where it was thought to be
+  Pose2 mount(std::size_t laser, const Pose2& base_from_laser) {
+    return std::exchange(lasers_[laser].base_from_laser, base_from_laser);
+  }
+  [[nodiscard]] std::size_t lasers() const { return lasers_.size(); }
   /// All scans about the robot's centre at the stamp of the newest.
   struct Joined {
     sensor_models::RangeSweep sweep;

@@ -1,7 +1,9 @@
 #include "docent/modules/drive/hazards_module.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include "docent/collision_avoidance/virtual_measurements/mount_doubt.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 
@@ -17,10 +19,12 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
+        doubt_sigmas_{params.doubt_sigmas},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
+    bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration, [this](const auto& calibration) { doubt(calibration); });
     // Says that it lives while the belief rests; the stamp stays that of the belief, so nobody takes it for newer.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
@@ -36,6 +40,16 @@ class HazardsModule final : public Module {
 
  private:
   static constexpr double kBeliefLife = 3.0;
+
+  /// The worst of the scanners: nobody knows to which of them the belief owes its pose.
+  void doubt(const docent_msgs::Calibration& calibration) {
+    doubt_ = {};
+    for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
+      if (mount.is_known) continue;
+      doubt_.heading = std::max(doubt_.heading, doubt_sigmas_ * mount.doubt_heading);
+      doubt_.position = std::max(doubt_.position, doubt_sigmas_ * mount.doubt_position);
+    }
+  }
 
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
@@ -54,8 +68,10 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
       squares_.clear();
     }
-    const auto of_hazards = hazards_.measure(poses_, squares_);
-    const auto of_border = border_.measure(poses_, squares_);
+    auto of_hazards = hazards_.measure(poses_, squares_);
+    auto of_border = border_.measure(poses_, squares_);
+    collision_avoidance::lower_by_doubt(of_hazards.ranges, doubt_);
+    collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.heading, 0.0});
     possible_mass_ = of_hazards.possible_mass;
 
     sensor_msgs::LaserScan scan;
@@ -83,6 +99,8 @@ class HazardsModule final : public Module {
   transport::Bus& bus_;
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
+  double doubt_sigmas_;
+  collision_avoidance::MountDoubt doubt_;  ///< in which the belief is not
   bool best_pose_only_;  ///< crippled, see VirtualMeasurementParams
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;

@@ -72,7 +72,10 @@ class ExploreModule final : public Module {
         exploration_{bus_.publisher(topics::kExploration)} {
     bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) { note(people); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { move(odometry); });
-    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { see(i, scan); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
+      surveyor_.mount(i, place.base_from_sensor);
+      see(i, scan);
+    });
     bus_.subscribe<docent_msgs::Stop>(topics::kStop,
                                       [this](const auto& stop) { surveyor_.note_stop(stop.is_stopped); });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering,

@@ -38,7 +38,10 @@ class MapModule final : public Module {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
-    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { take(i, scan); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
+      base_from_laser_[i] = place.base_from_sensor;
+      take(i, scan);
+    });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
         take(range, body_.base_from_sonar(*index),

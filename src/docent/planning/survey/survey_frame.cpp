@@ -26,6 +26,12 @@ Pose2 SurveyFrame::begin_moment(const Pose2& odom_from_base) {
   return *start_from_odom_ * odom_from_base;
 }
 
+void SurveyFrame::begin_anew() {
+  constexpr double kShortWay = 15.0;  // [m]: so far odometry is better than a map that was drawn wrongly
+  if (way_ > kShortWay && map_from_odom_) start_from_odom_ = map_from_odom_;
+  if (start_from_odom_) map_from_odom_ = start_from_odom_;
+}
+
 void SurveyFrame::end_moment(const Pose2& map_from_base) { map_from_odom_ = map_from_base * inverse(*last_); }
 
 std::optional<Pose2> SurveyFrame::map_from_base() const {

@@ -20,6 +20,8 @@ class SurveyFrame {
   void move(Time stamp, const collision_avoidance::BaseState& state);
   /// A moment that the map gets. @returns the pose by odometry alone, from where the robot began [m], map
   Pose2 begin_moment(const Pose2& odom_from_base);
+  /// The map begins anew, from where odometry has the robot: what is seen now contradicts what was drawn.
+  void begin_anew();
   /// Where the map found the robot to be at that moment.
   void end_moment(const Pose2& map_from_base);
 

@@ -1,6 +1,7 @@
 #include "docent/planning/survey/surveyor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "docent/planning/survey/beam_origins.h"
@@ -9,6 +10,7 @@ namespace docent::planning {
 
 Surveyor::Surveyor(const SurveyorParams& params, SurveySite site, const SurveyBody& body, SurveyStore store, Time now)
     : params_{params},
+      body_radius_{body.radius},
       store_{std::move(store)},
       frame_{site.home, store_.restored(now)},
       keyframes_{params.keyframes, params.mapping.points, body.base_from_laser},
@@ -16,6 +18,15 @@ Surveyor::Surveyor(const SurveyorParams& params, SurveySite site, const SurveyBo
       drive_{params.drive, Explorer{params.explorer, std::move(site.hazards), std::move(site.area)},
              site.home.position()},
       order_{params.waits_for_order ? ExplorationOrder::wait : ExplorationOrder::by_itself} {}
+
+void Surveyor::mount(std::size_t laser, const Pose2& base_from_laser) {
+  constexpr double kMatters = 0.03;      // [m] and
+  constexpr double kMattersTurn = 0.02;  // [rad]: less blurs no wall
+  const Pose2 moved = keyframes_.mount(laser, base_from_laser) * inverse(base_from_laser);
+  if (is_done_ || (norm(moved.position()) < kMatters && std::abs(moved.theta.radians()) < kMattersTurn)) return;
+  map_ = SurveyMap{params_.mapping, params_.map, body_radius_};
+  frame_.begin_anew();
+}
 
 bool Surveyor::obey(ExplorationOrder order) {
   if (is_done_) return false;

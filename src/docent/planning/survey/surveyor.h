@@ -49,6 +49,8 @@ class Surveyor {
   void note_people(std::span<const TrackedPerson> people) { walkers_.note(people); }
   void note_stop(bool is_stopped) { is_stopped_ = is_stopped; }  ///< somebody has pressed the stop button
   void note_steering(Time now) { steered_ = now; }               ///< somebody steers by hand
+  /// A laser is found to be mounted elsewhere: what was drawn so far is forgotten, where that matters.
+  void mount(std::size_t laser, const Pose2& base_from_laser);
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
     keyframes_.keep(laser, stamp, reading);
   }
@@ -106,6 +108,7 @@ class Surveyor {
   void keep_place(Time now) const;
 
   SurveyorParams params_;
+  double body_radius_;
   SurveyStore store_;
   SurveyFrame frame_;
   Keyframes keyframes_;
