@@ -88,8 +88,8 @@ class Instruments {
   Time last_odometry_{};
   Pose2 last_pose_{};
   bool has_odometry_ = false;
-  Pose2 jump_part_;            ///< base_from_base that the next readings are off
-  int jump_parts_ = 0;         ///< so many readings
+  Pose2 jump_part_;     ///< base_from_base that the next readings are off
+  int jump_parts_ = 0;  ///< so many readings
   OdometryScale scale_;
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
   bool has_tactile_;

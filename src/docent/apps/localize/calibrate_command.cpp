@@ -78,9 +78,9 @@ void replay(const recording::LaserLog& log, const CalibrateOptions& options,
       if (distance(mount.position(), scan.base_from_laser.position()) > 1e-9 ||
           std::abs((mount.theta - scan.base_from_laser.theta).radians()) > 1e-9)
         continue;
-      calibrator.see(k, scan.time,
-                     {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02,
-                      log.max_range > 0.0 ? log.max_range : 1e3});
+      calibrator.see(
+          k, scan.time,
+          {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, log.max_range > 0.0 ? log.max_range : 1e3});
     }
     calibrator.work();
   }
@@ -109,12 +109,8 @@ nlohmann::json report_of(const mapping::MountCalibrator& calibrator) {
                         {"finding", scanner.finding}});
   }
   const mapping::CalibratedBase base = calibrator.base();
-  return {{"scanners", scanners},
-          {"way_scale", base.way_scale},
-          {"way_sigma", base.way_sigma},
-          {"turn_scale", base.turn_scale},
-          {"turn_sigma", base.turn_sigma},
-          {"finding", calibrator.finding()}};
+  return {{"scanners", scanners},          {"way_scale", base.way_scale},   {"way_sigma", base.way_sigma},
+          {"turn_scale", base.turn_scale}, {"turn_sigma", base.turn_sigma}, {"finding", calibrator.finding()}};
 }
 
 /// The block for robot.yaml: what is known is as it was found, the rest as it stands.
@@ -166,6 +162,7 @@ void calibrate(const CalibrateOptions& options) {
   }
   mapping::MountCalibratorParams params;
   params.pairs = options.pairs;
+  params.rest_way = params.rest_turn = 0.0;  // every sweep counts
   mapping::MountCalibrator calibrator{params, scanners};
   replay(log, options, as_recorded, calibrator);
   if (!options.report.empty())
@@ -184,7 +181,8 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("--log", options->log, "recording: MCAP, rosbag2 or CARMEN")
       ->check(CLI::ExistingPath)
       ->required();
-  command->add_option("--robot", options->robot, "robot.yaml whose scanners these are; without: as the recording has them")
+  command
+      ->add_option("--robot", options->robot, "robot.yaml whose scanners these are; without: as the recording has them")
       ->check(CLI::ExistingFile);
   command->add_option("--from", options->from, "share of the recording at which to begin")->capture_default_str();
   command->add_option("--to", options->to, "and at which to end")->capture_default_str();

@@ -17,7 +17,7 @@ void lower_by_doubt(std::span<double> ranges, const MountDoubt& doubt) {
     double least = before[static_cast<std::size_t>(i)];
     for (std::ptrdiff_t k = -reach; k <= reach; ++k)
       least = std::min(least, before[static_cast<std::size_t>((i + k + count) % count)]);
-    ranges[static_cast<std::size_t>(i)] = std::max(0.0, least - doubt.position);
+    ranges[static_cast<std::size_t>(i)] = std::max(std::max(0.0, least - doubt.position), std::min(least, doubt.keep));
   }
 }
 

@@ -9,6 +9,7 @@ namespace docent::collision_avoidance {
 struct MountDoubt {
   double heading = 0.0;   ///< [rad], >= 0, each way
   double position = 0.0;  ///< [m], >= 0
+  double keep = 0.0;      ///< [m], >= 0: doubt lowers nothing below it, so that the robot may leave
 };
 
 /// Lowers ranges that go all round [directions] so that they underestimate whichever way the frame is off: in every

@@ -25,6 +25,9 @@ TEST(MountDoubt, OfNothingChangesNothing) {
   EXPECT_EQ(ranges, before);
   lower_by_doubt(ranges, {0.0, 0.1});
   EXPECT_DOUBLE_EQ(ranges[3], 0.0) << "never below nought";
+  lower_by_doubt(ranges, {0.0, 5.0, 0.35});
+  EXPECT_DOUBLE_EQ(ranges[0], 0.35) << "the robot may leave";
+  EXPECT_DOUBLE_EQ(ranges[3], 0.0);
 }
 
 }  // namespace docent::collision_avoidance::mount_doubt_test

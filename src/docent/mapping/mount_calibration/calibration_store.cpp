@@ -54,8 +54,13 @@ std::string list_of(std::span<const double> values) {
 std::array<double, 3> numbers_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
 
 std::array<double, kMountUnknowns> numbers_of(const MountState& state) {
-  return {state.base_from_sensor.x, state.base_from_sensor.y, state.base_from_sensor.theta.radians(), state.delay,
-          state.way_scale,          state.turn_scale,         state.veer};
+  return {state.base_from_sensor.x,
+          state.base_from_sensor.y,
+          state.base_from_sensor.theta.radians(),
+          state.delay,
+          state.way_scale,
+          state.turn_scale,
+          state.veer};
 }
 
 bool are_fit(const std::vector<double>& values, std::size_t count) {
@@ -101,11 +106,11 @@ std::optional<std::vector<RememberedMount>> CalibrationStore::load(std::span<con
 
 Result<void> CalibrationStore::save(std::span<const NominalScanner> nominal,
                                     std::span<const CalibratedScanner> found) const {
-  std::string text = "# What the scanners were found to be while the robot drove; remove it to begin anew.\nscanners:\n";
+  std::string text =
+      "# What the scanners were found to be while the robot drove; remove it to begin anew.\nscanners:\n";
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     std::array<double, kMountUnknowns> sigma{};
-    for (std::size_t k = 0; k < kMountUnknowns; ++k)
-      sigma[k] = found[i].estimate.sigma(static_cast<MountUnknown>(k));
+    for (std::size_t k = 0; k < kMountUnknowns; ++k) sigma[k] = found[i].estimate.sigma(static_cast<MountUnknown>(k));
     text += "  - name: " + nominal[i].name + "\n    nominal: " + list_of(numbers_of(nominal[i].base_from_sensor)) +
             "\n    found: " + list_of(numbers_of(found[i].estimate.state)) + "\n    sigma: " + list_of(sigma) +
             "\n    pairs: " + std::to_string(found[i].pairs) + "\n";

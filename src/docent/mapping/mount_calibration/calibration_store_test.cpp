@@ -39,8 +39,9 @@ TEST_F(Store, BeginsAnewWithAnotherRobotYamlOrADamagedFile) {
   auto other = nominal;
   other[0].base_from_sensor.x = 0.2;
   EXPECT_FALSE(store.load(other));
-  for (const char* text : {"scanners: 3", "scanners: [{name: front, nominal: [0.1, 0], found: [], sigma: [], pairs: 1}]",
-                           "scanners: [{name: front, nominal: [.nan, 0, 0], found: [1], sigma: [1], pairs: 1}]", "{"}) {
+  for (const char* text :
+       {"scanners: 3", "scanners: [{name: front, nominal: [0.1, 0], found: [], sigma: [], pairs: 1}]",
+        "scanners: [{name: front, nominal: [.nan, 0, 0], found: [1], sigma: [1], pairs: 1}]", "{"}) {
     ASSERT_TRUE(write_file_atomically(path, text));
     EXPECT_FALSE(store.load(nominal)) << text;
   }

@@ -22,14 +22,16 @@ struct NominalScanner {
 /// What is known of a scanner.
 struct CalibratedScanner {
   MountEstimate estimate;
-  std::size_t pairs = 0;       ///< that it comes of
-  bool is_known = false;       ///< the errors of heading and place are small
+  std::size_t pairs = 0;         ///< that it comes of
+  bool is_known = false;         ///< the errors of heading and place are small
+  bool is_settled = false;       ///< and so small that a look now and then will do
   bool is_contradicted = false;  ///< robot.yaml says otherwise, beyond doubt
-  Pose2 base_from_sensor;      ///< to be used: as robot.yaml has it, or as it was found
-  double delay = 0.0;          ///< [s] to be used
-  double doubt_heading = 0.0;  ///< [rad] standard deviation of what is to be used
-  double doubt_position = 0.0;  ///< [m] likewise
-  std::string finding;         ///< what contradicts robot.yaml, in words; empty: nothing
+  Pose2 base_from_sensor;        ///< to be used: as robot.yaml has it, or as it was found
+  double delay = 0.0;            ///< [s] to be used
+  double doubt_heading = 0.0;    ///< [rad] standard deviation of what is to be used
+  double doubt_position = 0.0;   ///< [m] likewise
+  std::string finding;           ///< what contradicts robot.yaml, in words; empty: nothing
+  MountEstimate told;            ///< that the words are of: who is told anew with every sweep listens no more
 };
 
 /// The base as the scanners see it.
@@ -58,7 +60,7 @@ class MountCalibrator {
   [[nodiscard]] const std::vector<CalibratedScanner>& scanners() const { return results_; }  ///< [scanners]
   [[nodiscard]] const std::vector<NominalScanner>& nominal() const { return nominal_; }      ///< [scanners]
   [[nodiscard]] CalibratedBase base() const;
-  [[nodiscard]] bool is_known() const;    ///< all mounts are
+  [[nodiscard]] bool is_known() const;        ///< all mounts are
   [[nodiscard]] std::string finding() const;  ///< all that contradicts robot.yaml, in words; empty: nothing
 
  private:
@@ -67,8 +69,15 @@ class MountCalibrator {
     std::deque<MotionPair> pairs;
     MountPrior prior;
     std::size_t remembered = 0;  ///< pairs that the prior comes of
+    std::size_t unfitted = 0;    ///< pairs since the last fit
+    double rest_way = 0.0;       ///< [m] and
+    double rest_turn = 0.0;      ///< [rad] that it drives before the next look
   };
   void fit(std::size_t scanner);
+  void rest(Follower& follower) const;
+  [[nodiscard]] static bool rests(const Follower& follower) {
+    return follower.rest_way > 0.0 && follower.rest_turn > 0.0;
+  }
   void forget_old(Follower& follower, const MountState& state) const;
   void judge(std::size_t scanner);
 

@@ -18,7 +18,7 @@ struct Case {
 
 MountCalibrator driven(const Case& one, const Pose2& nominal, bool has_people = false) {
   MountCalibrator calibrator{{}, {{"front", nominal}}};
-  testing::Drive drive{one.truth, one.late, one.odometry, one.seed};
+  testing::TestDrive drive{one.truth, one.late, one.odometry, one.seed};
   drive.field = one.field;
   if (has_people)  // they walk along beside the robot and about in the hall
     drive.people = [](double t) {
@@ -106,9 +106,9 @@ TEST(MountCalibrator, NoticesAScannerThatIsKnockedAskew) {
   const Pose2 after{0.1, 0.0, Angle::degrees(12.0)};
   auto calibrator = driven({.truth = {0.1, 0.0, {}}, .way = 40.0}, {0.1, 0.0, {}});
   EXPECT_EQ(calibrator.finding(), "");
-  testing::Drive drive{after, 0.0, {}, 7};
+  testing::TestDrive drive{after, 0.0, {}, 7};
   drive.go(
-      30.0, [&](Time stamp, const Pose2& odom) { calibrator.move(stamp + seconds(1000.0), odom); },
+      90.0, [&](Time stamp, const Pose2& odom) { calibrator.move(stamp + seconds(1000.0), odom); },
       [&](Time stamp, const auto& reading) {
         calibrator.see(0, stamp + seconds(1000.0), reading);
         calibrator.work();

@@ -50,15 +50,22 @@ Eigen::Vector3d residual(const MotionPair& pair, const MountState& state) {
   return {off.x, off.y, off.theta.radians()};
 }
 
-Eigen::Matrix3d information_of(const MotionPair& pair, const MountFitParams& params) {
+Eigen::Matrix3d information_of(const MotionPair& pair, Angle heading, const MountFitParams& params) {
   const Pose2 base = pair.base.at(0.0);
-  const double way = params.way_noise * params.way_noise * norm(base.position()) +
-                     params.least_noise * params.least_noise;
+  const double metres = norm(base.position());
+  const double least = params.least_noise * params.least_noise;
+  const double along = params.way_noise * params.way_noise * metres + least;
+  const double aside = params.aside_noise * params.aside_noise * metres + least;
+  const double c = std::cos(heading.radians());
+  const double s = std::sin(heading.radians());
   const double turn = params.turn_noise * params.turn_noise * std::abs(base.theta.radians()) +
                       params.least_turn_noise * params.least_turn_noise;
   Eigen::Matrix3d covariance = pair.information.inverse();
-  covariance(0, 0) += way;
-  covariance(1, 1) += way;
+  // The base drives along its own x axis, which lies at -heading in the sensor's frame.
+  covariance(0, 0) += c * c * along + s * s * aside;
+  covariance(1, 1) += s * s * along + c * c * aside;
+  covariance(0, 1) += c * s * (aside - along);
+  covariance(1, 0) += c * s * (aside - along);
   covariance(2, 2) += turn;
   return covariance.inverse();
 }
@@ -142,14 +149,18 @@ double MountEstimate::sigma_position() const { return std::max(sigma(kMountX), s
 
 double residual_of(const MotionPair& pair, const MountState& state, const MountFitParams& params) {
   const Eigen::Vector3d r = residual(pair, state);
-  return r.dot(information_of(pair, params) * r);
+  return r.dot(information_of(pair, state.base_from_sensor.theta, params) * r);
 }
 
 MountEstimate fit_mount(std::span<const MotionPair> pairs, const MountPrior& prior, const MountFitParams& params) {
   std::vector<WeighedPair> weighed;
-  for (const MotionPair& pair : pairs) weighed.push_back({&pair, information_of(pair, params)});
+  for (const MotionPair& pair : pairs)
+    weighed.push_back({&pair, information_of(pair, prior.state.base_from_sensor.theta, params)});
   MountEstimate estimate{.state = first_state(weighed, prior, params.outlier)};
   for (int i = 0; i < params.iterations; ++i) {
+    if (i <= 1)  // how odometry errs lies along the base's way, as far as that is known by now
+      for (WeighedPair& one : weighed)
+        one.information = information_of(*one.pair, estimate.state.base_from_sensor.theta, params);
     const NormalEquations sums = linearised(weighed, estimate.state, prior, params.outlier);
     const MountVector step = -sums.information.ldlt().solve(sums.pull);
     estimate.state = moved(estimate.state, step);

@@ -13,8 +13,7 @@ std::vector<MotionPair> pairs_of(const Pose2& mount, std::size_t count, Rng& rng
   for (std::size_t i = 0; i < count; ++i) {
     const double turn = i % 3 == 0 ? rng.uniform(-0.5, 0.5) : 0.0;
     const Pose2 base{rng.uniform(0.2, 0.6), 0.0, Angle::radians(turn)};
-    pairs.push_back(
-        {inverse(mount) * base * mount, 1e5 * Eigen::Matrix3d::Identity(), ShiftedMotion::constant(base)});
+    pairs.push_back({inverse(mount) * base * mount, 1e5 * Eigen::Matrix3d::Identity(), ShiftedMotion::constant(base)});
   }
   return pairs;
 }

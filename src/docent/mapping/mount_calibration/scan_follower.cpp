@@ -46,7 +46,8 @@ void ScanFollower::begin(Time stamp, const std::vector<SurfacePoint>& points) {
   if (points.size() >= kFewestPoints) reference_.emplace(Reference{stamp, SurfaceIndex{points}});
 }
 
-std::optional<MotionPair> ScanFollower::look(const motion_models::OdometryHistory& odometry, const Pose2& mount) {
+std::optional<MotionPair> ScanFollower::look(const motion_models::OdometryHistory& odometry, const Pose2& mount,
+                                             double way) {
   Waiting sweep = std::move(waiting_.front());
   waiting_.pop_front();
   if (!reference_ || to_seconds(sweep.stamp - reference_->stamp) > params_.longest) {
@@ -64,16 +65,16 @@ std::optional<MotionPair> ScanFollower::look(const motion_models::OdometryHistor
   const auto points = points_of(sweep);
   std::optional<LineMatch> match;
   if (points.size() >= kFewestPoints)
-    match = line_match(reference_->surfaces, points, reference_from_last_ * inverse(mount) * moved * mount,
-                       params_.lines);
+    match =
+        line_match(reference_->surfaces, points, reference_from_last_ * inverse(mount) * moved * mount, params_.lines);
   if (!match || match->overlap < params_.least_overlap || match->residual > params_.most_residual) {
     begin(sweep.stamp, points);
     return std::nullopt;
   }
   reference_from_last_ = match->reference_from_sweep;
   last_ = sweep.stamp;
-  const bool is_far = norm(reference_from_last_.position()) >= params_.way ||
-                      std::abs(reference_from_last_.theta.degrees()) >= params_.turn;
+  const bool is_far =
+      norm(reference_from_last_.position()) >= way || std::abs(reference_from_last_.theta.degrees()) >= params_.turn;
   if (!is_far) return std::nullopt;
   std::optional<MotionPair> pair;
   if (auto base = ShiftedMotion::between(odometry, reference_->stamp, sweep.stamp)) {
@@ -85,11 +86,12 @@ std::optional<MotionPair> ScanFollower::look(const motion_models::OdometryHistor
   return pair;
 }
 
-std::vector<MotionPair> ScanFollower::follow(const motion_models::OdometryHistory& odometry, const Pose2& mount) {
+std::vector<MotionPair> ScanFollower::follow(const motion_models::OdometryHistory& odometry, const Pose2& mount,
+                                             double way) {
   std::vector<MotionPair> pairs;
   while (!waiting_.empty() && !odometry.empty() &&
          waiting_.front().stamp + seconds(ShiftedMotion::kMost) <= odometry.latest_time()) {
-    if (auto pair = look(odometry, mount)) pairs.push_back(std::move(*pair));
+    if (auto pair = look(odometry, mount, way)) pairs.push_back(std::move(*pair));
   }
   return pairs;
 }

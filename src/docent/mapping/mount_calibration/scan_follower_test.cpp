@@ -11,13 +11,13 @@ TEST(ScanFollower, SeesTheMotionOfTheSensor) {
   const Pose2 mount{0.2, 0.0, Angle::degrees(20.0)};
   ScanFollower follower{{}};
   motion_models::OdometryHistory odometry{std::chrono::seconds{6}};
-  testing::Drive drive{mount, 0.0, {.noise = 0.0}, 1};
+  testing::TestDrive drive{mount, 0.0, {.noise = 0.0}, 1};
   std::size_t pairs = 0;
   drive.go(
       8.0, [&](Time stamp, const Pose2& odom) { odometry.add(stamp, odom); },
       [&](Time stamp, const auto& reading) {
         follower.keep(stamp, reading);
-        for (const MotionPair& pair : follower.follow(odometry, Pose2{0.2, 0.0, {}})) {  // a guess 20 degrees off
+        for (const MotionPair& pair : follower.follow(odometry, Pose2{0.2, 0.0, {}}, 0.5)) {  // a guess 20 degrees off
           const Pose2 off = inverse(inverse(mount) * pair.base.at(0.0) * mount) * pair.sensor_then_from_now;
           EXPECT_LT(norm(off.position()), 0.03);
           EXPECT_LT(std::abs(off.theta.degrees()), 0.6);
@@ -35,7 +35,7 @@ TEST(ScanFollower, OfARobotThatStandsSaysNothing) {
     const Time now = time_from_seconds(0.1 * i);
     odometry.add(now, {});
     follower.keep(now, {ranges, Angle::degrees(-90.0), Angle::degrees(1.0).radians(), 0.02, 10.0});
-    EXPECT_TRUE(follower.follow(odometry, {}).empty());
+    EXPECT_TRUE(follower.follow(odometry, {}, 0.5).empty());
   }
 }
 

@@ -31,18 +31,18 @@ inline std::vector<Segment> hall() {
 
 /// What odometry makes of a true drive.
 struct OdometryErrors {
-  double way = 1.0;   ///< metres counted for each true one
-  double turn = 1.0;  ///< likewise of turns
+  double way = 1.0;      ///< metres counted for each true one
+  double turn = 1.0;     ///< likewise of turns
   double noise = 0.005;  ///< [m / sqrt(m)] and [rad / sqrt(rad)]
 };
 
 /// Drives to and fro between places of the hall and looks with one scanner.
-class Drive {
+class TestDrive {
  public:
-  Drive(Pose2 base_from_sensor, double late, OdometryErrors errors, std::uint64_t seed)
+  TestDrive(Pose2 base_from_sensor, double late, OdometryErrors errors, std::uint64_t seed)
       : mount_{base_from_sensor}, late_{late}, errors_{errors}, rng_{seed} {}
 
-  double field = std::numbers::pi;    ///< [rad] of the scanner
+  double field = std::numbers::pi;  ///< [rad] of the scanner
   std::vector<Segment> walls = hall();
   std::function<std::vector<Point2>(double)> people;  ///< [m], world, at a time: discs of 0.25 m
 
@@ -69,8 +69,8 @@ class Drive {
       driven += step.x;
       const double slip = errors_.noise * std::sqrt(step.x) * rng_.normal();
       const double turned = errors_.noise * std::sqrt(std::abs(0.01 * angular)) * rng_.normal();
-      odometry_ = odometry_ * Pose2{errors_.way * step.x + slip, 0.0,
-                                    Angle::radians(errors_.turn * 0.01 * angular + turned)};
+      odometry_ =
+          odometry_ * Pose2{errors_.way * step.x + slip, 0.0, Angle::radians(errors_.turn * 0.01 * angular + turned)};
       if (tick % 5 == 0) on_odometry(time_from_seconds(now), odometry_);
       if (tick % 10 == 3) scan(now, on_scan);
     }

@@ -92,7 +92,8 @@ class AvoidModule final : public Module {
                                                  {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
-    subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) { see(i, scan, place); });
+    subscribe_scanners(bus_, body_,
+                       [this](std::size_t i, const auto& scan, const auto& place) { see(i, scan, place); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
       if (!index) return;

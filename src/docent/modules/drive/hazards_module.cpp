@@ -20,11 +20,15 @@ class HazardsModule final : public Module {
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
         doubt_sigmas_{params.doubt_sigmas},
+        keep_{context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
-    bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration, [this](const auto& calibration) { doubt(calibration); });
+    bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration,
+                                             [this](const auto& calibration) { doubt(calibration); });
+    bus_.subscribe<docent_msgs::Exploration>(topics::kExploration,
+                                             [this](const auto& survey) { mark_margin_ = survey.mark_margin; });
     // Says that it lives while the belief rests; the stamp stays that of the belief, so nobody takes it for newer.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
@@ -40,6 +44,7 @@ class HazardsModule final : public Module {
 
  private:
   static constexpr double kBeliefLife = 3.0;
+  static constexpr double kBeside = 0.1;  // [m]: doubt alone never tells a robot that it touches something
 
   /// The worst of the scanners: nobody knows to which of them the belief owes its pose.
   void doubt(const docent_msgs::Calibration& calibration) {
@@ -70,7 +75,7 @@ class HazardsModule final : public Module {
     }
     auto of_hazards = hazards_.measure(poses_, squares_);
     auto of_border = border_.measure(poses_, squares_);
-    collision_avoidance::lower_by_doubt(of_hazards.ranges, doubt_);
+    collision_avoidance::lower_by_doubt(of_hazards.ranges, {doubt_.heading, doubt_.position + mark_margin_, keep_});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.heading, 0.0});
     possible_mass_ = of_hazards.possible_mass;
 
@@ -101,7 +106,9 @@ class HazardsModule final : public Module {
   collision_avoidance::VirtualMeasurements border_;
   double doubt_sigmas_;
   collision_avoidance::MountDoubt doubt_;  ///< in which the belief is not
-  bool best_pose_only_;  ///< crippled, see VirtualMeasurementParams
+  double mark_margin_ = 0.0;               ///< [m] that the hazards themselves may lie off
+  double keep_;                            ///< [m], see MountDoubt
+  bool best_pose_only_;                    ///< crippled, see VirtualMeasurementParams
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;
   std::vector<collision_avoidance::WeightedSquare> squares_;

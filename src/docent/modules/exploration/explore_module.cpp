@@ -52,6 +52,7 @@ docent_msgs::Exploration report_message(const planning::Surveyor::Report& report
   message.map = report.map;
   message.warning = report.warning;
   message.order = to_text(report.order);
+  message.mark_margin = report.mark_margin;
   return message;
 }
 
@@ -92,6 +93,7 @@ class ExploreModule final : public Module {
     if (!surveyor_.fault().empty()) return {"faulted", surveyor_.fault()};
     if (!surveyor_.has_odometry()) return {"degraded", "no odometry"};
     if (!surveyor_.has_begun()) return {"starting", "no scan of all lasers yet"};
+    if (std::string plea = surveyor_.plea(); !plea.empty()) return {"degraded", std::move(plea)};
     return {};
   }
 

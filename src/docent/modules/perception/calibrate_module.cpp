@@ -37,10 +37,10 @@ class CalibrateModule final : public Module {
       calibrator_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
     });
     subscribe_raw_scanners(bus_, context.config.body(), [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
-      calibrator_.see(i, from_message(scan.header.stamp),
-                      {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)),
-                       static_cast<double>(scan.angle_increment), static_cast<double>(scan.range_min),
-                       static_cast<double>(scan.range_max)});
+      calibrator_.see(
+          i, from_message(scan.header.stamp),
+          {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
+           static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)});
     });
     bus_.every(kWorkPeriod, [this] {
       if (calibrator_.work()) publish();

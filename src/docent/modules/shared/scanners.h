@@ -37,7 +37,7 @@ struct ScannerPlace {
 
 /// The places of all scanners: as robot.yaml has them until the module `calibrate` says otherwise.
 [[nodiscard]] inline std::shared_ptr<const std::vector<ScannerPlace>> follow_calibration(transport::Bus& bus,
-                                                                                          const robot::RobotBody& body) {
+                                                                                         const robot::RobotBody& body) {
   auto places = std::make_shared<std::vector<ScannerPlace>>();
   std::vector<std::string> names;
   for (const robot::Scanner& scanner : body.scanners) {
@@ -47,8 +47,7 @@ struct ScannerPlace {
   bus.subscribe<docent_msgs::Calibration>(topics::kCalibration, [places, names](const auto& calibration) {
     for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
       for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i] == mount.scanner)
-          (*places)[i] = {{mount.x, mount.y, Angle::radians(mount.heading)}, mount.delay};
+        if (names[i] == mount.scanner) (*places)[i] = {{mount.x, mount.y, Angle::radians(mount.heading)}, mount.delay};
     }
   });
   return places;
@@ -64,15 +63,14 @@ void subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_
     else
       on_scan(i, scan);
   };
-  subscribe_raw_scanners(bus, body,
-                         [tell, places = follow_calibration(bus, body)](std::size_t i,
-                                                                        const sensor_msgs::LaserScan& scan) {
-                           const ScannerPlace& place = (*places)[i];
-                           if (place.delay == 0.0) return tell(i, scan, place);
-                           sensor_msgs::LaserScan earlier = scan;
-                           earlier.header.stamp = to_message(from_message(scan.header.stamp) - seconds(place.delay));
-                           tell(i, earlier, place);
-                         });
+  subscribe_raw_scanners(
+      bus, body, [tell, places = follow_calibration(bus, body)](std::size_t i, const sensor_msgs::LaserScan& scan) {
+        const ScannerPlace& place = (*places)[i];
+        if (place.delay == 0.0) return tell(i, scan, place);
+        sensor_msgs::LaserScan earlier = scan;
+        earlier.header.stamp = to_message(from_message(scan.header.stamp) - seconds(place.delay));
+        tell(i, earlier, place);
+      });
 }
 
 }  // namespace docent::modules

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -47,6 +48,12 @@ class ExplorationDrive {
   void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now);
   /// See `Explorer::set_doubt`.
   void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
+  /// See `Explorer::set_mark_margin`.
+  void set_mark_margin(std::function<double(Point2)> margin) { explorer_.set_mark_margin(std::move(margin)); }
+  /// [m], map: where it comes back to in the end.
+  void set_home(Point2 home);
+  /// In the end it stands where it set out.
+  [[nodiscard]] bool is_at_home(Point2 robot) const { return distance(robot, home_) < params_.home_tolerance; }
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -89,6 +90,8 @@ class Explorer {
 
   /// How far off, by one standard deviation [m], what people have marked may lie from the robot's place on the map.
   void set_doubt(double sigma) { doubt_ = sigma; }
+  /// [m] that marks near a place may lie off beside that, all but surely: the robot was set down by hand.
+  void set_mark_margin(std::function<double(Point2)> margin) { mark_margin_ = std::move(margin); }
   /// [m], map: what is near to it is explored first.
   void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
@@ -130,6 +133,7 @@ class Explorer {
   std::vector<Hazard> hazards_;
   Polygon area_;
   double doubt_ = 0.0;
+  std::function<double(Point2)> mark_margin_;  ///< none: they lie where they are said to
   std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;

@@ -33,10 +33,14 @@ Pose2 pose(const YamlFile& file, const YAML::Node& node) {
   Pose2 result;
   for (const auto& entry : mapping(file, node)) {
     const std::string key = entry.first.Scalar();
-    if (key == "x") result.x = number(file, entry.second, -kMostMetres, kMostMetres);
-    else if (key == "y") result.y = number(file, entry.second, -kMostMetres, kMostMetres);
-    else if (key == "heading") result.theta = Angle::degrees(number(file, entry.second, -180.0, 180.0));
-    else refuse(file, entry.first, "x, y, heading");
+    if (key == "x")
+      result.x = number(file, entry.second, -kMostMetres, kMostMetres);
+    else if (key == "y")
+      result.y = number(file, entry.second, -kMostMetres, kMostMetres);
+    else if (key == "heading")
+      result.theta = Angle::degrees(number(file, entry.second, -180.0, 180.0));
+    else
+      refuse(file, entry.first, "x, y, heading");
   }
   return result;
 }
@@ -48,15 +52,19 @@ BuildErrors read_build_errors(const YamlFile& file, const YAML::Node& node) {
   for (const auto& entry : mapping(file, node)) {
     const std::string key = entry.first.Scalar();
     if (key == "mounts") {
-      for (const auto& mount : mapping(file, entry.second)) errors.mounts[mount.first.Scalar()] = pose(file, mount.second);
+      for (const auto& mount : mapping(file, entry.second))
+        errors.mounts[mount.first.Scalar()] = pose(file, mount.second);
     } else if (key == "late") {
       for (const auto& scanner : mapping(file, entry.second))
         errors.late[scanner.first.Scalar()] = number(file, scanner.second, 0.0, kMostLate);
     } else if (key == "odometry") {
       for (const auto& scale : mapping(file, entry.second)) {
-        if (scale.first.Scalar() == "way") errors.way = number(file, scale.second, 0.5, 2.0);
-        else if (scale.first.Scalar() == "turn") errors.turn = number(file, scale.second, 0.5, 2.0);
-        else refuse(file, scale.first, "way, turn");
+        if (scale.first.Scalar() == "way")
+          errors.way = number(file, scale.second, 0.5, 2.0);
+        else if (scale.first.Scalar() == "turn")
+          errors.turn = number(file, scale.second, 0.5, 2.0);
+        else
+          refuse(file, scale.first, "way, turn");
       }
     } else if (key == "start") {
       errors.start = pose(file, entry.second);

@@ -17,8 +17,8 @@ struct BuildErrors {
   Pose2 start;                          ///< said_from_true: it stands so far from where it is told
 };
 
-/// Reads `{mounts: {NAME: {x, y, heading}}, late: {NAME: SECONDS}, odometry: {way, turn}, start: {x, y, heading}}`, each
-/// of which may be left out; x and y of mounts in the robot's frame. Throws YamlFault.
+/// Reads `{mounts: {NAME: {x, y, heading}}, late: {NAME: SECONDS}, odometry: {way, turn}, start: {x, y, heading}}`,
+/// each of which may be left out; x and y of mounts in the robot's frame. Throws YamlFault.
 [[nodiscard]] BuildErrors read_build_errors(const YamlFile& file, const YAML::Node& node);
 
 /// What odometry with wrong scales makes of the true one, reading by reading.

@@ -403,7 +403,8 @@ Result<Scenario> read_scenario(const YamlFile& file) {
     if (!root.IsMap()) throw YamlFault{file.fault(root, "expected a mapping with 'events'")};
     for (const auto& entry : root) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      if (key == "build") scenario.build = read_build_errors(file, entry.second);
+      if (key == "build")
+        scenario.build = read_build_errors(file, entry.second);
       else if (key != "events")
         throw YamlFault{file.fault(entry.first, "unknown key '" + key + "' (known: build, events)")};
     }

@@ -152,10 +152,10 @@ struct Scenario {
   BuildErrors build;  ///< of the whole run
 };
 
-/// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump.
-/// With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase has lasted so
-/// long. Error: "FILE:LINE: ...".
+/// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
+/// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
+/// request, answers, battery, kill, second_mode, odometry_jump. With `during: PHASE` it waits for that phase of the
+/// mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 
