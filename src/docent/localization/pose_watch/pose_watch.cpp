@@ -33,11 +33,13 @@ void PoseWatch::mount(std::size_t laser, const Pose2& base_from_laser) {
   if (!is_localized()) return localizer_->start_unknown();
   const double share = 1.0 / static_cast<double>(sweeps_.lasers());
   const Pose2 part{share * moved.x, share * moved.y, Angle::radians(share * moved.theta.radians())};
+  const double rest = 1.0 - share;  // of it may be the belief's, too
+  const double square = rest * rest * dot(moved.position(), moved.position());
   BeliefMode mode = best_mode();
   mode.map_from_robot = mode.map_from_robot * part;
-  mode.covariance[0] += dot(part.position(), part.position());
-  mode.covariance[4] += dot(part.position(), part.position());
-  mode.covariance[8] += part.theta.radians() * part.theta.radians();
+  mode.covariance[0] += square;
+  mode.covariance[4] += square;
+  mode.covariance[8] += rest * rest * moved.theta.radians() * moved.theta.radians();
   localizer_->start_at(std::span{&mode, 1}, localizer_->odom_from_robot(), belief_told_);
 }
 

@@ -55,13 +55,13 @@ struct MountCalibratorParams {
   double named_position = 0.03;  ///< [m], > 0
   double named_delay = 0.04;     ///< [s], > 0: half of a sweep of 12 Hz is one, too
   double named_scale = 0.04;     ///< share, > 0, of way and of turn
-  double sigmas = 3.0;           ///< > 0: and from how many standard deviations beyond half of that
+  double sigmas = 2.5;           ///< > 0: and from how many standard deviations beyond half of that
   // When mounts count as known.
   double known_heading = 1.5;    ///< [deg], > 0: standard deviation
   double known_position = 0.04;  ///< [m], > 0
   // And as so well known that a look now and then will do: it costs a tenth.
-  double settled_heading = 0.6;     ///< [deg], > 0
-  double settled_position = 0.015;  ///< [m], > 0
+  double settled_heading = 0.4;     ///< [deg], > 0
+  double settled_position = 0.01;  ///< [m], > 0
   double rest_way = 4.0;            ///< [m], >= 0: between two such looks, or
   double rest_turn = 90.0;          ///< [deg], >= 0
   // What is believed before.

@@ -52,8 +52,6 @@ class ExplorationDrive {
   void set_mark_margin(std::function<double(Point2)> margin) { explorer_.set_mark_margin(std::move(margin)); }
   /// [m], map: where it comes back to in the end.
   void set_home(Point2 home);
-  /// In the end it stands where it set out.
-  [[nodiscard]] bool is_at_home(Point2 robot) const { return distance(robot, home_) < params_.home_tolerance; }
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;

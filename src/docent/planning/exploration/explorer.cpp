@@ -110,11 +110,12 @@ bool Explorer::may_stand(Point2 place, double hazard_margin) const {
   constexpr double kRounding = 1e-6;   // [m]
   constexpr double kMostMargin = 5.0;  // [m]: whoever knows less of its marks stays where it is
   if (!area_.empty() && !contains(area_, place)) return false;
-  const double keep = params_.robot_radius + hazard_margin;
+  const bool may_be_off = mark_margin_ && !hazards_.empty() && hazard_margin > params_.tight_margin;
+  const double keep =
+      params_.robot_radius + hazard_margin + (may_be_off ? std::min(kMostMargin, mark_margin_(place)) : 0.0);
   for (const Hazard& hazard : hazards_) {
-    if (distance(hazard.centre, place) > hazard.radius + keep + kMostMargin + kRounding) continue;
-    const double margin = hazard_margin > params_.tight_margin && mark_margin_ ? mark_margin_(place) : 0.0;
-    if (distance(hazard.outline, place) < keep + std::min(kMostMargin, margin)) return false;
+    if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;
+    if (distance(hazard.outline, place) < keep) return false;
   }
   return std::none_of(blocked_.begin(), blocked_.end(),
                       [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });

@@ -20,6 +20,7 @@ constexpr double kTurn = 1.0 * kDegree;
 constexpr double kSearched = 3.0;    // standard deviations to each side
 constexpr double kOtherPlace = 4.0;  // sigmas by what is seen: so far off is another place
 constexpr double kTold = 0.5;        // [m] of wall that one sigma off what the robot was told costs
+constexpr double kMatters = 0.06;    // [m] at a corner of the border
 constexpr double kLeastGap = -0.3;   // [m]: a border that runs along the walls themselves
 constexpr double kEndWeight = 2.0;   // ends of a wall that are seen count as so many metres each, at most
 
@@ -111,7 +112,7 @@ double MarkAlignment::score(const Histograms& histograms, Point2 shift, double g
     const auto bin = static_cast<std::size_t>(before);
     const double share = place - before;
     const double met = (1.0 - share) * static_cast<double>(bins[bin]) + share * static_cast<double>(bins[bin + 1]);
-    sum += std::min(met, borders_[k].length);
+    sum += met;
   }
   return sum;
 }
@@ -219,11 +220,14 @@ bool MarkAlignment::align(std::span<const mapping::SurfacePoint> walls) {
   if (has_rival) return false;
   is_aligned_ = true;
   covariance_ = covariance.topLeftCorner<3, 3>();
-  const Pose2 before = site_from_survey_;
-  site_from_survey_ = pose_of(best);
-  const Pose2 moved = site_from_survey_ * inverse(before);
-  const Point2 off = moved * start_.position() - start_.position();
-  return norm(off) > 0.02 || std::abs(moved.theta.radians()) > 0.2 * kDegree;
+  const Pose2 found = pose_of(best);
+  const Pose2 moved = found * inverse(site_from_survey_);
+  // Every change draws the map anew.
+  const bool matters = std::any_of(borders_.begin(), borders_.end(), [&](const Border& border) {
+    return distance(moved * border.side.a, border.side.a) > kMatters;
+  });
+  if (matters) site_from_survey_ = found;
+  return matters;
 }
 
 double MarkAlignment::margin_at(Point2 site) const {

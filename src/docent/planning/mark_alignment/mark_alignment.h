@@ -20,7 +20,7 @@ struct MarkAlignmentParams {
   double free = 0.15;           ///< [m], >= 0: of them that other margins hold already
   double wall_reach = 1.6;      ///< [m], > 0: walls stand at most so far outside the border of the area
   double wall_sigma = 0.08;     ///< [m], > 0: how evenly the border was drawn along the walls
-  double least_wall = 6.0;      ///< [m], > 0: less of walls along the border says nothing
+  double least_wall = 8.0;      ///< [m], > 0: less of walls along the border says nothing
   double distinct = 1.15;       ///< > 1: by so much the best place must fit better than any other one
   template <class V>
   void visit(V& v) {

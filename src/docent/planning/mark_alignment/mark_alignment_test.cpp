@@ -17,7 +17,7 @@ std::vector<mapping::SurfacePoint> walls_seen(const Pose2& site_from_survey, dou
   const auto see = [&](Point2 at, Point2 normal) {
     if (distance(at, site_from_survey * kStart.position()) > reach) return;
     const Point2 noise{rng.normal(0.0, 0.02), rng.normal(0.0, 0.02)};
-    walls.push_back(transformed(inverse(site_from_survey), {at + noise, normal}));
+    walls.push_back(mapping::transformed(inverse(site_from_survey), {at + noise, normal}));
   };
   for (const Segment& side : sides(kArea)) {
     const double length = distance(side.a, side.b);

@@ -80,10 +80,12 @@ void SurveyMap::look() {
   known_m2_ = free_area(seen_);
 }
 
-Result<SurveyMap::Finished> SurveyMap::finish(const LastTouches& touches) {
+Result<SurveyMap::Finished> SurveyMap::finish(const LastTouches& touches, const SiteOf& site_of) {
   mapping::GraphMap result = poses_.finish();
   mapping::ScanMapperParams params = params_;
   params.fewest_hits = std::max(params.fewest_hits, kFewestHitsInTheEnd);
+  // The best poses may have turned all of it about the first one.
+  if (site_of) site_from_survey_ = site_of(walls(kWallsApart));
   result.map_from_base = in_site(result.map_from_base);
   const auto placed = map_.placed(result.map_from_base);
   const auto frame = mapping::ScanMapper::frame_of(placed, params);

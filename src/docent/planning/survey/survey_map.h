@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ class SurveyMap {
   Pose2 add(Keyframe moment);
   /// The site, in whose frame the map is drawn, lies elsewhere than where the robot took it to lie.
   void lie(const Pose2& site_from_survey);
+  static constexpr double kWallsApart = 0.15;  ///< [m]
   /// [m], survey: some points of what was seen, at most one in so many metres, with normals. O(moments)
   [[nodiscard]] std::vector<mapping::SurfacePoint> walls(double apart) const;
   /// Follows the poses that have moved since, a hundred moments a call.
@@ -48,8 +50,10 @@ class SurveyMap {
     double standing_room = 0.265;  ///< [m], >= 0, about every pose was free, for the robot stood there
     double stray_floor = 0.5;      ///< [m2], >= 0: less free floor than that in one piece was seen by stray beams
   };
+  /// Where the site lies, by some of the walls (see `walls`) from the best poses.
+  using SiteOf = std::function<Pose2(const std::vector<mapping::SurfacePoint>& walls)>;
   /// No moment may follow. Error: nothing was seen, or too wide a building.
-  [[nodiscard]] Result<Finished> finish(const LastTouches& touches);
+  [[nodiscard]] Result<Finished> finish(const LastTouches& touches, const SiteOf& site_of = {});
 
  private:
   [[nodiscard]] std::vector<Pose2> in_site(std::span<const Pose2> survey_from_base) const;

@@ -87,13 +87,13 @@ Surveyor::Step Surveyor::plan(Time now) {
 
 /// The robot was set down by hand: what people have marked is laid onto the walls that it sees.
 void Surveyor::align_marks() {
-  constexpr std::size_t kEvery = 8;  // moments
-  constexpr double kApart = 0.15;    // [m] of walls
+  constexpr std::size_t kAtFirst = 3;  // moments
+  constexpr std::size_t kLater = 25;   // likewise, once it is aligned
   const std::size_t moments = map_.poses().map_from_base().size();
-  if (!has_marks_ || moments < aligned_moments_ + kEvery) return;
+  if (!has_marks_ || moments < aligned_moments_ + (alignment_.is_aligned() ? kLater : kAtFirst)) return;
   aligned_moments_ = moments;
   const Pose2 before = alignment_.site_from_survey();
-  if (!alignment_.align(map_.walls(kApart))) return;
+  if (!alignment_.align(map_.walls(SurveyMap::kWallsApart))) return;
   const Pose2& after = alignment_.site_from_survey();
   map_.lie(after);
   map_.follow();
@@ -102,8 +102,8 @@ void Surveyor::align_marks() {
 }
 
 std::string Surveyor::plea() const {
-  constexpr double kOff = 0.25;       // [m] or
-  constexpr double kOffTurn = 2.0;    // [deg] is worth a word
+  constexpr double kOff = 0.4;        // [m] or
+  constexpr double kOffTurn = 2.5;    // [deg] is worth a word
   constexpr std::size_t kLong = 100;  // moments, some 15 m
   if (!has_marks_) return {};
   char text[200];
@@ -126,7 +126,12 @@ std::string Surveyor::plea() const {
 }
 
 std::optional<OccupancyGrid> Surveyor::finish(Time now) {
-  auto finished = map_.finish({params_.explorer.robot_radius, params_.stray_floor});
+  constexpr double kAway = 1.0;  // [m]: its home was a little elsewhere on the map by which it drove
+  const SurveyMap::SiteOf site_of = [this](const std::vector<mapping::SurfacePoint>& walls) {
+    if (has_marks_) (void)alignment_.align(walls);
+    return alignment_.site_from_survey();
+  };
+  auto finished = map_.finish({params_.explorer.robot_radius, params_.stray_floor}, site_of);
   if (!finished) {
     fault_ = finished.error().message;
     return std::nullopt;
@@ -138,12 +143,13 @@ std::optional<OccupancyGrid> Surveyor::finish(Time now) {
   }
   file_ = std::move(*saved);
   warning_ = std::move(finished->warning);
+  frame_.end_moment(finished->map_from_base.back());
   const auto here = frame_.map_from_base();
-  is_away_ = order_ == ExplorationOrder::by_itself && here && !drive_.is_at_home(here->position());
+  const Point2 home = alignment_.site_from_survey() * start_.position();
+  is_away_ = order_ == ExplorationOrder::by_itself && here && distance(here->position(), home) > kAway;
   if (is_away_) {
     char text[96];
-    std::snprintf(text, sizeof text, "the robot stands %.1f m from its home",
-                  distance(here->position(), alignment_.site_from_survey() * start_.position()));
+    std::snprintf(text, sizeof text, "the robot stands %.1f m from its home", distance(here->position(), home));
     warning_ += (warning_.empty() ? "" : "; ") + std::string{text};
   }
   unreached_ = drive_.explorer().unreached(finished->map);
