@@ -72,10 +72,10 @@ def rows_of(path):
 
 def told_of(reason, scanner):
     """What of a scanner is said: (degrees, x, y [m], late [s]); 0 where nothing is."""
-    found = re.search(rf"scanner {scanner}: ([^;]*)", reason)
+    found = re.search(rf"scanner {scanner}: (.*?)(?=; scanner|; base|$)", reason)
     text = found.group(1) if found else ""
     turned = re.search(r"turned by ([+-][\d.]+)", text)
-    moved = re.search(r"displaced by x ([+-]\d+), y ([+-]\d+)", text)
+    moved = re.search(r"displaced by x ([+-]\d+) y ([+-]\d+)", text)
     late = re.search(r"stamps ([+-]\d+)", text)
     return (float(turned.group(1)) if turned else 0.0, *((float(moved.group(1)) / 100, float(moved.group(2)) / 100) if moved else (0.0, 0.0)),
             float(late.group(1)) / 1000 if late else 0.0)

@@ -18,7 +18,7 @@ struct ScanFollowerParams {
   double most_residual = 0.07;    ///< [m], > 0: root mean square of their distances; more: nothing fits
   double most_disagreement = 20;  ///< [deg], > 0: between the turns that odometry and scans see; more: one of them errs
   int most_points = 240;          ///< > 0: of a sweep; more cost more and say little more
-  PointSweepParams points{.reach = 20.0};
+  PointSweepParams points{.reach = 20.0, .nearest = 0.4};  ///< nearer is the robot itself, or whoever touches it
   LineMatcherParams lines{.sigma = 0.02, .independent_points = 40.0};
   [[nodiscard]] Result<void> validate() const;
 };
@@ -60,14 +60,15 @@ struct MountCalibratorParams {
   double known_heading = 1.5;    ///< [deg], > 0: standard deviation
   double known_position = 0.04;  ///< [m], > 0
   // And as so well known that a look now and then will do: it costs a tenth.
-  double settled_heading = 0.4;     ///< [deg], > 0
+  double settled_heading = 0.4;    ///< [deg], > 0
   double settled_position = 0.01;  ///< [m], > 0
-  double rest_way = 4.0;            ///< [m], >= 0: between two such looks, or
-  double rest_turn = 90.0;          ///< [deg], >= 0
+  double rest_way = 4.0;           ///< [m], >= 0: between two such looks, or
+  double rest_turn = 90.0;         ///< [deg], >= 0
   // What is believed before.
   double doubt_heading = 7.0;    ///< [deg], >= 0: standard deviation of a mount that nothing has confirmed
   double doubt_position = 0.07;  ///< [m], >= 0
   double unknown_speed = 0.3;    ///< [m/s], > 0: so fast at most until mounts are known
+  double unknown_way = 60.0;     ///< [m], >= 0: but no longer than that: there are halls in which nothing is to be seen
   bool corrects = true;          ///< drives with what it has found; false: it is named alone
   template <class V>
   void visit(V& v) {
@@ -80,6 +81,7 @@ struct MountCalibratorParams {
     v("doubt_heading", doubt_heading);
     v("doubt_position", doubt_position);
     v("unknown_speed", unknown_speed);
+    v("unknown_way", unknown_way);
     v("corrects", corrects);
   }
   [[nodiscard]] Result<void> validate() const;

@@ -12,6 +12,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kNewest = 12;   // pairs that may tell that a mount was knocked
 constexpr double kStrange = 6.0;      // mean squared sigmas of them, where some 3 are usual
+constexpr std::size_t kAnd = 5;       // characters
 constexpr std::size_t kFitEvery = 3;  // pairs, of what is settled
 constexpr double kMuchBetter = 0.6;   // of that, with another mount
 constexpr double kHysteresis = 0.6;   // of what is named: below it nothing is corrected any more
@@ -60,16 +61,16 @@ void say(CalibratedScanner& scanner, const Contradictions& what, const NominalSc
   const Pose2& found = now.state.base_from_sensor;
   if (what.is_turned)
     scanner.finding +=
-        text(", turned by %+.1f ± %.1f degrees", (found.theta - nominal.base_from_sensor.theta).degrees(),
+        text(" and turned by %+.1f ± %.1f degrees", (found.theta - nominal.base_from_sensor.theta).degrees(),
              now.sigma(kMountHeading) / kDegree);
   if (what.is_displaced)
     scanner.finding +=
-        text(", displaced by x %+.0f, y %+.0f ± %.0f cm", 100.0 * (found.x - nominal.base_from_sensor.x),
+        text(" and displaced by x %+.0f y %+.0f ± %.0f cm", 100.0 * (found.x - nominal.base_from_sensor.x),
              100.0 * (found.y - nominal.base_from_sensor.y), std::max(1.0, 100.0 * now.sigma_position()));
   if (what.is_late)
-    scanner.finding += text(", its stamps %+.0f ± %.0f ms late", 1000.0 * now.state.delay,
+    scanner.finding += text(" and its stamps %+.0f ± %.0f ms late", 1000.0 * now.state.delay,
                             std::max(1.0, 1000.0 * now.sigma(kMountDelay)));
-  if (!scanner.finding.empty()) scanner.finding = "scanner " + nominal.name + ": " + scanner.finding.substr(2);
+  if (!scanner.finding.empty()) scanner.finding = "scanner " + nominal.name + ": " + scanner.finding.substr(kAnd);
 }
 
 }  // namespace
@@ -92,6 +93,7 @@ void MountCalibrator::move(Time stamp, const Pose2& odom_from_base) {
     for (Follower& follower : followers_) follower.sweeps.forget();
   if (!odometry_.empty()) {
     const Pose2 moved = inverse(odometry_.latest()) * reading.odom_from_base;
+    way_ += norm(moved.position());
     for (Follower& follower : followers_) {
       follower.rest_way -= norm(moved.position());
       follower.rest_turn -= std::abs(moved.theta.radians());
@@ -225,10 +227,10 @@ CalibratedBase MountCalibrator::base() const {
   base.way_sigma = 1.0 / std::sqrt(way_weight);
   base.turn_sigma = 1.0 / std::sqrt(turn_weight);
   if (has_pairs && is_beyond(base.way_scale - 1.0, base.way_sigma, params_.named_scale, params_.sigmas))
-    base.finding += text(", each metre of odometry is %.3f ± %.3f m", base.way_scale, base.way_sigma);
+    base.finding += text(" and each metre of odometry is %.3f ± %.3f m", base.way_scale, base.way_sigma);
   if (has_pairs && is_beyond(base.turn_scale - 1.0, base.turn_sigma, params_.named_scale, params_.sigmas))
-    base.finding += text(", each degree that it turns is %.3f ± %.3f", base.turn_scale, base.turn_sigma);
-  if (!base.finding.empty()) base.finding = "base: " + base.finding.substr(2);
+    base.finding += text(" and each degree that it turns is %.3f ± %.3f", base.turn_scale, base.turn_sigma);
+  if (!base.finding.empty()) base.finding = "base: " + base.finding.substr(kAnd);
   return base;
 }
 

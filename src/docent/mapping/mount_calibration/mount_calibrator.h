@@ -60,6 +60,8 @@ class MountCalibrator {
   [[nodiscard]] const std::vector<CalibratedScanner>& scanners() const { return results_; }  ///< [scanners]
   [[nodiscard]] const std::vector<NominalScanner>& nominal() const { return nominal_; }      ///< [scanners]
   [[nodiscard]] CalibratedBase base() const;
+  /// Mounts are not known, and it may be that a few metres more will tell.
+  [[nodiscard]] bool is_slow() const { return !is_known() && way_ < params_.unknown_way; }
   [[nodiscard]] bool is_known() const;        ///< all mounts are
   [[nodiscard]] std::string finding() const;  ///< all that contradicts robot.yaml, in words; empty: nothing
 
@@ -85,6 +87,7 @@ class MountCalibrator {
   std::vector<NominalScanner> nominal_;
   std::vector<Follower> followers_;
   std::vector<CalibratedScanner> results_;
+  double way_ = 0.0;  ///< [m] that it has driven
   motion_models::UnbrokenOdometry unbroken_;
   motion_models::OdometryHistory odometry_{std::chrono::seconds{6}};
 };

@@ -43,7 +43,7 @@ class CalibrateModule final : public Module {
            static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)});
     });
     bus_.every(kWorkPeriod, [this] {
-      if (calibrator_.work()) publish();
+      if (calibrator_.work() || calibrator_.is_slow() != was_slow_) publish();
     });
     bus_.every(kSavePeriod, [this] { save(); });
   }
@@ -52,7 +52,8 @@ class CalibrateModule final : public Module {
     const std::string finding = calibrator_.finding();
     if (!finding.empty()) return {"degraded", "robot.yaml is wrong: " + finding};
     if (!fault_.empty()) return {"degraded", fault_};
-    if (!calibrator_.is_known()) return {"ready", "slow until the drive has shown where the scanners are mounted"};
+    if (calibrator_.is_slow()) return {"ready", "slow until the drive has shown where the scanners are mounted"};
+    if (!calibrator_.is_known()) return {"ready", "the drive has not shown where the scanners are mounted"};
     return {};
   }
 
@@ -66,7 +67,8 @@ class CalibrateModule final : public Module {
                                 scanner.base_from_sensor.theta.radians(), scanner.delay, scanner.doubt_heading,
                                 scanner.doubt_position, scanner.is_known});
     }
-    if (!calibrator_.is_known()) message.most_speed = params_.unknown_speed;
+    was_slow_ = calibrator_.is_slow();
+    if (was_slow_) message.most_speed = params_.unknown_speed;
     const mapping::CalibratedBase base = calibrator_.base();
     message.way_scale = base.way_scale;
     message.turn_scale = base.turn_scale;
@@ -86,7 +88,8 @@ class CalibrateModule final : public Module {
   mapping::MountCalibrator calibrator_;
   mapping::CalibrationStore store_;
   transport::Publisher<docent_msgs::Calibration> calibration_;
-  std::string fault_;     ///< why nothing can be remembered
+  std::string fault_;  ///< why nothing can be remembered
+  bool was_slow_ = false;
   bool is_saved_ = true;  ///< nothing was found since
 };
 

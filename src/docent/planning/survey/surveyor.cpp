@@ -120,7 +120,7 @@ std::string Surveyor::plea() const {
   const double turned = moved.theta.degrees();
   if (norm(off) < kOff && std::abs(turned) < kOffTurn) return {};
   std::snprintf(text, sizeof text,
-                "I began %+.2f, %+.2f m and %+.1f degrees from where I was told, by the area's border", off.x, off.y,
+                "I began x %+.2f y %+.2f m and %+.1f degrees from where I was told by the area's border", off.x, off.y,
                 turned);
   return text;
 }
