@@ -30,7 +30,8 @@ void PoseWatch::mount(std::size_t laser, const Pose2& base_from_laser) {
   const Pose2 before = sweeps_.mount(laser, base_from_laser);
   const Pose2 moved = before * inverse(base_from_laser);
   if (norm(moved.position()) < kMatters && std::abs(moved.theta.radians()) < kMattersTurn) return;
-  if (!is_localized()) return localizer_->start_unknown();
+  const bool has_place = is_localized() || verdict().keeps_its_place();  // one laser after the other is found elsewhere
+  if (!has_place || localizer_->summary().modes.empty()) return localizer_->start_unknown();
   const double share = 1.0 / static_cast<double>(sweeps_.lasers());
   const Pose2 part{share * moved.x, share * moved.y, Angle::radians(share * moved.theta.radians())};
   const double rest = 1.0 - share;  // of it may be the belief's, too

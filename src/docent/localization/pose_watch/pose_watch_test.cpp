@@ -183,7 +183,7 @@ TEST_F(PoseWatch, ALaserThatIsFoundElsewhereMovesTheRobotAndNotTheLaser) {
   const Pose2 laser = watch->best_mode().map_from_robot * found;
   EXPECT_LT(distance(laser.position(), before.position()), 0.12);
   EXPECT_LT(std::abs((laser.theta - before.theta).degrees()), 4.0) << "headings are 3 degrees apart";
-  EXPECT_TRUE(watch->is_localized());
+  EXPECT_TRUE(watch->verdict().keeps_its_place()) << "it says so when it has looked";
   watch->mount(0, Pose2{0.105, 0.0, Angle::degrees(12.2)});
   EXPECT_LT(distance((watch->best_mode().map_from_robot * found).position(), laser.position()), 1e-9) << "no matter";
 }
