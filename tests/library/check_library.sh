@@ -1,6 +1,7 @@
 #!/bin/bash
 # Installs libdocent-dev, and python3-docent where there is one, in a Debian that holds nothing else but what they depend on and a
-# compiler. There the examples are built with find_package and run, and one of them with add_subdirectory.
+# compiler. There the examples are built with find_package and run, and one of them with add_subdirectory; the tests of the Python package
+# run, but for the one that needs the program.
 #
 #   tests/library/check_library.sh FOLDER_OF_PACKAGES [--mirror]
 #
@@ -9,7 +10,7 @@ set -uo pipefail
 . "$(dirname "$0")/../package/small_debian.sh"
 dev=$(echo "$given"/libdocent-dev_*.deb) python=$(echo "$given"/python3-docent_*.deb)
 debs=("$dev") names=(libdocent-dev) tools=(cmake g++ make python3-minimal)
-[ -f "$python" ] && debs+=("$python") names+=(python3-docent) tools+=(python3 python3-numpy)
+[ -f "$python" ] && debs+=("$python") names+=(python3-docent) tools+=(python3 python3-numpy python3-pytest)
 make_root "${debs[@]}" -- "${tools[@]}"
 cp "${debs[@]}" "$root/tmp/"
 expect "dpkg installs what is there with its dependencies and nothing else" inside bash -c 'dpkg -i /tmp/*.deb'
@@ -95,6 +96,9 @@ expect "and its prefix stays empty" bash -c "[ ! -e '$root/tmp/installed' ] || [
 
 if [ -f "$python" ]; then
   expect "python3-docent is imported" inside python3 -c 'import docent; print(docent.__file__)'
+  cp -r python/tests "$root/tmp/python-tests"
+  expect "and does what its tests ask" prints '^[0-9]+ passed, 1 deselected' inside bash -c "cd $examples && exec python3 -B -m pytest -q \
+    -p no:cacheprovider -k 'not test_the_program_itself' /tmp/python-tests"
 else
   echo "skipped: the Python package, this build has none (DOCENT_PYTHON)"
 fi

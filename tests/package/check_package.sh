@@ -9,7 +9,10 @@ set -uo pipefail
 deb=$given
 is() { diff <(echo "$1") <(echo "$2"); }
 
-make_root "$deb"  # what the program writes in /tmp is no part of the comparison
+python=$(echo "$(dirname "$deb")"/python3-docent_*.deb)
+tools=()
+[ -f "$python" ] && tools=(python3 python3-numpy python3-pytest)
+make_root "$deb" -- "${tools[@]}"  # what the program writes in /tmp is no part of the comparison
 cp "$deb" "$root/tmp/docent.deb"
 mkdir -p "$root"/var/{lib,cache}/private "$root/etc/systemd/system/multi-user.target.wants"  # every systemd has them
 # Names, kinds and modes of all files but those of the mounts and dpkg's own locks, triggers and log.
@@ -35,6 +38,11 @@ mkdir -p "$root/tmp/moved/share" && cp -r "$root/usr/bin" "$root/tmp/moved/" && 
 expect "a moved prefix finds its own museum" grep -qE -- '--museum .*/tmp/moved/share/docent/museums/bonn' <(inside /tmp/moved/bin/docent up --help)
 expect "and its own tour program" grep -qF "/tmp/moved/share/docent/prolog/tour_guide.pl: fine" \
   <(inside /tmp/moved/bin/docent golog check /usr/share/docent/museums/bonn)
+if [ -f "$python" ]; then
+  dpkg-deb -x "$python" "$root/tmp/python" && cp python/tests/test_simulation.py "$root/tmp/"
+  expect "the Python package runs it" inside bash -c "cd /usr/share/docent && PYTHONPATH=/tmp/python/usr/lib/python3/dist-packages \
+    PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME=/tmp/cache exec python3 -m pytest -q -p no:cacheprovider /tmp/test_simulation.py"
+fi
 expect "docent_msgs for ROS 2 holds what the IDL holds" tests/package/check_messages.py "$root/usr/share/docent"
 unit=$root/usr/lib/systemd/system/docent.service
 if command -v systemd-analyze >/dev/null; then

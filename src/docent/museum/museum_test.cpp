@@ -186,6 +186,8 @@ const Broken kBroken[]{
      "inside the hazard 'case'", true},
     {"ExhibitCloseToHazard", "pose: {x: 3.5, y: 2.0,", "pose: {x: 3.5, y: 2.8,", "y: 2.8", "from the hazard 'case'",
      true},
+    {"ExhibitThatTheBodyWouldTouchAHazardAt", "pose: {x: 3.5, y: 2.0,", "pose: {x: 3.5, y: 2.6,", "y: 2.6",
+     "only 0.4 m from the hazard 'case', the robot needs 0.565 m", true},
     {"ExhibitCloseToWall", "pose: {x: 7.5, y: 3.5,", "pose: {x: 6.4, y: 3.5,", "x: 6.4", "the robot needs 0.365 m",
      true},
     {"ExhibitOutsideArea", "pose: {x: 7.5, y: 3.5,", "pose: {x: 7.5, y: 7.7,", "y: 7.7", "outside the area", true},
