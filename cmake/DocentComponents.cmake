@@ -34,7 +34,7 @@ docent_component(bus FOLDERS messages transport DEPENDS core
 docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES sqlite3 zstd z)
 
 # Not of the component that holds the folder around: what brings several of them together, and what only the programs need.
-set(DOCENT_PROGRAM_FOLDERS messages/definitions planning/navigator planning/survey)
+set(DOCENT_PROGRAM_FOLDERS messages/definitions planning/navigator planning/mark_alignment planning/survey)
 
 # docent_component_of(FOLDER RESULT): the component that holds the folder, else `program`.
 function(docent_component_of folder result)

@@ -38,7 +38,7 @@ FLOORS = {
     ],
     "mapping": [
         {"occupancy", "scan_matching", "pose_graph", "sonar_network", "topological"},
-        {"graph_mapping", "rooms"},
+        {"graph_mapping", "mount_calibration", "rooms"},
         {"expectation_maximization"},
     ],
     "localization": [

@@ -71,6 +71,7 @@ inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kInitialPose{"i
                                                                               fault_of_initial_pose};
 inline constexpr Topic<docent_msgs::Exploration> kExploration{"docent/exploration", Qos::state};
 inline constexpr Topic<docent_msgs::ExplorationOrder> kExplorationOrder{"docent/exploration_order", Qos::state};
+inline constexpr Topic<docent_msgs::Calibration> kCalibration{"docent/calibration", Qos::state};
 inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeopleInOdom{"docent/people_odom", Qos::sensor};
@@ -141,7 +142,7 @@ void for_each_robot_topic(F&& f) {
   f(kScanFront), f(kScanRear), f(kSonar), f(kOdometry), f(kBattery), f(kTactile), f(kCommandVelocity);
   f(kScanLeft), f(kScanRight), f(kInfrared), f(kObstacleLines), f(kCamera), f(kSceneCamera), f(kSceneCameraView);
   f(kTransforms), f(kStaticTransforms), f(kStaticMap), f(kLiveMap), f(kLiveMapUpdate), f(kBelief), f(kPose);
-  f(kExploration), f(kExplorationOrder);
+  f(kExploration), f(kExplorationOrder), f(kCalibration);
   f(kPersonBeams), f(kPeople), f(kPeopleInOdom), f(kVirtualScan), f(kDriveGoal), f(kGoalState), f(kTarget), f(kPath),
       f(kValueFunction);
   f(kDrive), f(kAvoidState), f(kRequest), f(kChoice), f(kVotes), f(kRequestBoard), f(kMissionState), f(kTask),

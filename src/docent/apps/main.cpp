@@ -1,6 +1,7 @@
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
+#include "docent/apps/localize/calibrate_command.h"
 #include "docent/apps/localize/localize_command.h"
 #include "docent/apps/localize/map_command.h"
 #include "docent/apps/museum/check_command.h"
@@ -21,23 +22,24 @@
 int main(int argc, char** argv) {
   using namespace docent::apps;
   const auto whole = std::make_shared<RobotMaker>();
-  return run({.name = "docent",
-              .meaning = "Docent: an autonomous museum tour guide.",
-              .version = DOCENT_VERSION,
-              .groups = {{"Drive through a museum",
-                          {with_robot(simulate_command::add_simulate_command, whole),
-                           with_robot(simulate_command::add_explore_command, whole), up_command::add_up_command,
-                           web_account_command::add_web_account_command, gateway_command::add_gateway_command}},
-                         {"Make a museum",
-                          {up_command::add_setup_command, museum_command::add_museum_command,
-                           museum_command::add_office_command, museum_command::add_survey_command,
-                           museum_command::add_check_command, golog_command::add_golog_command}},
-                         {"Look at recordings",
-                          {localize_command::add_localize_command, localize_command::add_map_command,
-                           with_robot(replay_command::add_replay_command, whole)}},
-                         {"Tune", {config_command::add_config_command}},
-                         {"Put it into a robot of your own", {up_command::add_run_command}}},
-              .other = "docent-lab",
-              .others = {kLaboratoryCommands.begin(), kLaboratoryCommands.end()}},
-             argc, argv);
+  return run(
+      {.name = "docent",
+       .meaning = "Docent: an autonomous museum tour guide.",
+       .version = DOCENT_VERSION,
+       .groups = {{"Drive through a museum",
+                   {with_robot(simulate_command::add_simulate_command, whole),
+                    with_robot(simulate_command::add_explore_command, whole), up_command::add_up_command,
+                    web_account_command::add_web_account_command, gateway_command::add_gateway_command}},
+                  {"Make a museum",
+                   {up_command::add_setup_command, museum_command::add_museum_command,
+                    museum_command::add_office_command, museum_command::add_survey_command,
+                    museum_command::add_check_command, golog_command::add_golog_command}},
+                  {"Look at recordings",
+                   {localize_command::add_localize_command, localize_command::add_map_command,
+                    localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole)}},
+                  {"Tune", {config_command::add_config_command}},
+                  {"Put it into a robot of your own", {up_command::add_run_command}}},
+       .other = "docent-lab",
+       .others = {kLaboratoryCommands.begin(), kLaboratoryCommands.end()}},
+      argc, argv);
 }

@@ -161,16 +161,17 @@ struct ExplorationOrder {
 struct Exploration {
   static constexpr const char* kType = "docent_msgs/msg/Exploration";
   std_msgs::Header header;
-  std::string state;                ///< starting, exploring, returning, mapping (it computes and stands), done
-  float known_m2 = 0;               ///< floor known to be free
-  std::uint32_t frontier = 0;       ///< unknown cells that it can still go to
-  float way_m = 0;                  ///< driven
-  std::uint32_t loops = 0;          ///< places recognised
+  std::string state;           ///< starting, exploring, returning, mapping (it computes and stands), done, stranded
+  float known_m2 = 0;          ///< floor known to be free
+  std::uint32_t frontier = 0;  ///< unknown cells that it can still go to
+  float way_m = 0;             ///< driven
+  std::uint32_t loops = 0;     ///< places recognised
   std::vector<double> unreached_x;  ///< [m], map: unknown places beside free floor that it could not get to or see into
   std::vector<double> unreached_y;  ///< [m]
   std::string map;                  ///< done: the file of the map
   std::string warning;              ///< done: why the map is not to be trusted; empty: it is
   std::string order;                ///< as it was taken last: wait, by_itself, by_hand, finish
+  double mark_margin = 0;           ///< [m] that it keeps off what people have marked near it, beside other margins
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -184,6 +185,7 @@ struct Exploration {
     v("map", m.map);
     v("warning", m.warning);
     v("order", m.order);
+    v("mark_margin", m.mark_margin);
   }
 };
 

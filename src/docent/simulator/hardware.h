@@ -16,6 +16,7 @@ struct Hardware {
     std::string frame;        ///< of its messages
     Pose2 base_from_scanner;  ///< the middle of its field looks along x
     ScannerKind kind{};       ///< what is sold under its name
+    double late = 0.0;        ///< [s] after the sweep that it is sent, with the stamp of then
   };
   std::vector<Scanner> scanners{{"front", "laser_front", {}},
                                 {"rear", "laser_rear", {0.0, 0.0, Angle::degrees(180.0)}}};
@@ -25,6 +26,8 @@ struct Hardware {
   int infrareds = 24;             ///< likewise
   double infrared_radius = 0.25;  ///< [m]
   bool has_tactile = true;
+  double odometry_way = 1.0;   ///< metres that odometry counts for each true one
+  double odometry_turn = 1.0;  ///< likewise of turns
 };
 
 }  // namespace docent::simulator

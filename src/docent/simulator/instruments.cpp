@@ -85,6 +85,7 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
       infrared_{infrareds_of(hardware), rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
       wire_rng_{rng.stream("wires")},
+      scale_{hardware.odometry_way, hardware.odometry_turn},
       has_tactile_{hardware.has_tactile},
       pings_{bus.publisher(topics::kSonar)},
       infrared_readings_{bus.publisher(topics::kInfrared)},
@@ -99,8 +100,10 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          bus.publisher(topics::scan_topic(scanner.name)),
                          {},
                          {},
+                         {},
                          0,
-                         {}});
+                         {},
+                         scanner.late});
     scanners_.back().laser.see_body(hardware.posts);
     beams_ += scanners_.back().laser.params().beams;
   }
@@ -201,7 +204,7 @@ void Instruments::publish_odometry(Time now, const Body& body) {
     --jump_parts_;
     odom_from_body_odom_ = odom_from_body_odom_ * body.odometry() * jump_part_ * inverse(body.odometry());
   }
-  const Pose2 odometry = odom_from_body_odom_ * body.odometry();
+  const Pose2 odometry = scale_.apply(odom_from_body_odom_ * body.odometry());
   message.pose.pose = to_message(odometry);
   const double dt = to_seconds(now - last_odometry_);
   if (has_odometry_ && dt > 0.0) {
@@ -242,6 +245,13 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
   }
   scanner.lies.tell(now,
                     {message.ranges, message.range_min, message.range_max, message.angle_min, message.angle_increment});
+  if (scanner.late > 0.0) {
+    bus_.after(seconds(scanner.late), [this, &scanner, message = std::move(message)]() mutable {
+      message.header.stamp = to_message(bus_.now());
+      emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, bus_.now());
+    });
+    return;
+  }
   emit(scanner.sensor, scanner.scans, std::move(message), scanner.last, now);
 }
 

@@ -66,6 +66,7 @@ class Instruments {
     std::vector<int> met;  ///< [people] beams of the last sweep
     int blocked = 0;       ///< beams of the last sweep that met people
     ScannerLies lies;
+    double late = 0.0;  ///< [s], see Hardware
   };
   struct Fault {
     FaultKind kind;
@@ -104,8 +105,9 @@ class Instruments {
   Time last_odometry_{};
   Pose2 last_pose_{};
   bool has_odometry_ = false;
-  Pose2 jump_part_;            ///< base_from_base that the next readings are off
-  int jump_parts_ = 0;         ///< so many readings
+  Pose2 jump_part_;     ///< base_from_base that the next readings are off
+  int jump_parts_ = 0;  ///< so many readings
+  OdometryScale scale_;
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
   bool has_tactile_;
   std::uint32_t tactile_scan_ = 0;

@@ -15,6 +15,7 @@ template const TypeSupport& type_support<docent_msgs::AvoidState>();
 template const TypeSupport& type_support<docent_msgs::Belief>();
 template const TypeSupport& type_support<docent_msgs::Button>();
 template const TypeSupport& type_support<docent_msgs::ButtonLamps>();
+template const TypeSupport& type_support<docent_msgs::Calibration>();
 template const TypeSupport& type_support<docent_msgs::CameraView>();
 template const TypeSupport& type_support<docent_msgs::Choice>();
 template const TypeSupport& type_support<docent_msgs::Drive>();

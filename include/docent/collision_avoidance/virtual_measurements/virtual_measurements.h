@@ -17,6 +17,7 @@ struct VirtualMeasurementParams {
   double confidence = 0.99;     ///< probability with which a virtual measurement underestimates the true distance
   bool jointly = true;          ///< in all directions at once; else in each direction by itself, as in the papers
   double cell_padding = 0.05;   ///< [m] the robot may be so far from the centre of its belief cell
+  double doubt_sigmas = 2.5;    ///< >= 0: of where the scanners are mounted, while nothing has confirmed it
   double max_impossible = 0.5;  ///< when more mass than this lies where the robot cannot be, that is believed
   bool best_pose_only = false;  ///< crippled, for evaluation: trusts the likeliest pose
 
@@ -36,6 +37,7 @@ struct VirtualMeasurementParams {
     v("confidence", confidence);
     v("jointly", jointly);
     v("cell_padding", cell_padding);
+    v("doubt_sigmas", doubt_sigmas);
     v("max_impossible", max_impossible);
   }
   [[nodiscard]] Result<void> validate() const;

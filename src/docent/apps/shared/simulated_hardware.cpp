@@ -1,5 +1,6 @@
 #include "docent/apps/shared/simulated_hardware.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace docent::apps {
@@ -35,6 +36,27 @@ simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
   hardware.infrared_radius = body.infrared_radius;
   hardware.has_tactile = body.tactile;
   return hardware;
+}
+
+Result<void> build_wrongly(simulator::Hardware& hardware, const simulator::BuildErrors& errors) {
+  const auto find = [&](const std::string& name) {
+    return std::find_if(hardware.scanners.begin(), hardware.scanners.end(),
+                        [&](const auto& scanner) { return scanner.name == name; });
+  };
+  for (const auto& [name, error] : errors.mounts) {
+    const auto scanner = find(name);
+    if (scanner == hardware.scanners.end()) return fail("build.mounts: there is no scanner " + name);
+    Pose2& mount = scanner->base_from_scanner;
+    mount = {mount.x + error.x, mount.y + error.y, mount.theta + error.theta};
+  }
+  for (const auto& [name, late] : errors.late) {
+    const auto scanner = find(name);
+    if (scanner == hardware.scanners.end()) return fail("build.late: there is no scanner " + name);
+    scanner->late = late;
+  }
+  hardware.odometry_way = errors.way;
+  hardware.odometry_turn = errors.turn;
+  return {};
 }
 
 }  // namespace docent::apps

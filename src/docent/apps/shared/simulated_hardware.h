@@ -2,10 +2,14 @@
 
 #include "docent/robot/robot_config.h"
 #include "docent/simulator/hardware.h"
+#include "docent/simulator/scenario/build_errors.h"
 
 namespace docent::apps {
 
 /// The sensors that a simulated robot is built with: those of the body as configured.
 [[nodiscard]] simulator::Hardware simulated_hardware(const robot::RobotBody& body);
+
+/// As it was truly built. Error: a scanner that the body does not have.
+[[nodiscard]] Result<void> build_wrongly(simulator::Hardware& hardware, const simulator::BuildErrors& errors);
 
 }  // namespace docent::apps

@@ -80,7 +80,7 @@ docent_msgs::Exploration drive(SimulationRun& run, const ExploreOptions& options
   const auto start = std::chrono::steady_clock::now();
   const Time end = time_from_seconds(options.most_hours * 3600.0);
   docent_msgs::Exploration state;
-  while (run.now() < end && state.state != "done") {
+  while (run.now() < end && state.state != "done" && state.state != "stranded") {
     value_or_fail(run.run_until(run.now() + seconds(5.0)));
     state = run.exploration().value_or(docent_msgs::Exploration{});
     const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -106,7 +106,7 @@ void explore(ExploreOptions& options) {
   const docent_msgs::Exploration state = drive(*run, options);
   value_or_fail(run->finish());
   const double minutes = to_seconds(run->now()) / 60.0;
-  if (state.state != "done")
+  if (state.state != "done" && state.state != "stranded")
     throw CommandFailed{"not done after " + std::to_string(options.most_hours) + " h: " + line_of(state, minutes)};
   const std::filesystem::path explored = std::filesystem::path{options.run.state} / "explored";
   const OccupancyGrid map = value_or_fail(load_map(explored / "map.yaml"));
@@ -117,11 +117,14 @@ void explore(ExploreOptions& options) {
   for (std::size_t i = 0; i < state.unreached_x.size(); ++i)
     unreached.push_back({state.unreached_x[i], state.unreached_y[i]});
   report["exploration"] = {{"minutes", minutes},   {"known_m2", state.known_m2}, {"way_m", state.way_m},
-                           {"loops", state.loops}, {"unreached", unreached},     {"warning", state.warning}};
+                           {"loops", state.loops}, {"unreached", unreached},     {"warning", state.warning},
+                           {"state", state.state}};
   value_or_fail(write_file_atomically(out / "report.json", report.dump(2) + "\n"));
   std::printf("%s\n", line_of(state, minutes).c_str());
   std::printf("%s: %d x %d cells; %zu places not reached or not seen into\n", (out / "map.yaml").c_str(),
               map.frame.columns, map.frame.rows, state.unreached_x.size());
+  if (state.state == "stranded")
+    throw CommandFailed{"the map is made, but the exploration is not done: " + state.warning};
   if (!state.warning.empty()) std::fprintf(stderr, "warning: do not trust this map: %s\n", state.warning.c_str());
 }
 
@@ -142,6 +145,10 @@ void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->check(output_folder())
       ->required();
   command->add_option("--start", options->start, "X,Y,DEG where the robot begins; without: the museum's home");
+  command
+      ->add_option("--scenario", options->run.scenario,
+                   "file of timed events, and of what is built or told otherwise than robot.yaml and --start say")
+      ->check(CLI::ExistingFile);
   command->add_option("--robot", options->run.robot, "robot.yaml; without: all defaults");
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
   command->add_option("--hours", options->most_hours, "virtual hours after which it is given up")
@@ -156,6 +163,8 @@ void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
       ->check(output_file());
   command->add_option("--event-log", options->run.event_log, "CSV file to write: touches, with times and places")
+      ->check(output_file());
+  command->add_option("--health-log", options->run.health_log, "CSV file to write: what the modules said of themselves")
       ->check(output_file());
   command
       ->add_option("--drive-log", options->run.drive_log,

@@ -172,6 +172,8 @@ class SimulationRun::Parts {
     if (!options_.scenario.empty()) {
       auto scenario = simulator::load_scenario(options_.scenario);
       if (!scenario) return tl::unexpected<Error>(scenario.error());
+      if (auto built = build_wrongly(options.hardware, scenario->build); !built) return built;
+      if (options.start) options.start = *options.start * scenario->build.start;
       const bool alters_belief = std::any_of(scenario->events.begin(), scenario->events.end(), [](const auto& event) {
         return std::holds_alternative<simulator::PoseError>(event.what) ||
                std::holds_alternative<simulator::SecondMode>(event.what);

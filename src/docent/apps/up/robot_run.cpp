@@ -161,10 +161,11 @@ Result<void> keep_recording(const RobotRun& options, const std::set<std::filesys
 /// For whoever stands beside it; empty: nothing new.
 std::string told_of(const docent_msgs::Exploration& now, const std::string& state_before) {
   if (now.state == state_before) return {};
-  if (now.state != "done") return now.state;
+  if (now.state != "done" && now.state != "stranded") return now.state;
   char text[120];
-  std::snprintf(text, sizeof text, "done: %.0f m2 after %.0f m, %zu places not reached or not seen into; ",
-                static_cast<double>(now.known_m2), static_cast<double>(now.way_m), now.unreached_x.size());
+  std::snprintf(text, sizeof text, "%s: %.0f m2 after %.0f m, %zu places not reached or not seen into; ",
+                now.state.c_str(), static_cast<double>(now.known_m2), static_cast<double>(now.way_m),
+                now.unreached_x.size());
   return text + now.map + (now.warning.empty() ? "" : "; do not trust it: " + now.warning);
 }
 

@@ -60,6 +60,9 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   if (!options.scenario.empty()) {
     auto scenario = simulator::load_scenario(options.scenario);
     if (!scenario) return tl::unexpected<Error>(scenario.error());
+    if (auto built = build_wrongly(simulation.hardware, scenario->build); !built)
+      return tl::unexpected<Error>(built.error());
+    if (simulation.start) simulation.start = *simulation.start * scenario->build.start;
     simulation.scenario = std::move(*scenario);
   }
   simulation.run_info.museum = place->name;

@@ -47,7 +47,7 @@ void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
 void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= inputs_.lasers() || odometry_.empty()) return;
   inputs_.hear_sweep(now, sweep.stamp, sensor);
-  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp);
+  sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp) - seconds(sweep.late);
   if (was_overtaken(sensor, sweep.stamp)) return;
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
   if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base);

@@ -24,6 +24,7 @@ struct SensorSweep {
   double min_range = 0.0;      ///< [m]
   double max_range = 0.0;      ///< [m]; this or more: nothing there
   std::vector<float> ranges;   ///< [m]; NaN: no reading
+  double late = 0.0;           ///< [s] by which the stamp is later than the sweep, by what was learned of the scanner
 };
 
 /// One reading of a sonar, or of an infrared sensor.

@@ -39,6 +39,7 @@ int wrapped(int direction) {
 
 Result<void> VirtualMeasurementParams::validate() const {
   if (!(confidence > 0.5 && confidence < 1.0)) return fail("hazards.confidence must lie between 0.5 and 1");
+  if (!(doubt_sigmas >= 0.0)) return fail("hazards.doubt_sigmas must be >= 0");
   if (!(cell_padding >= 0.0 && cell_padding < 0.5)) return fail("hazards.cell_padding must lie between 0 and 0.5 m");
   if (!(max_impossible >= 0.0 && max_impossible < 1.0)) return fail("hazards.max_impossible must lie in [0, 1)");
   return {};

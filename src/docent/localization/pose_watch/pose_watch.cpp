@@ -1,5 +1,6 @@
 #include "docent/localization/pose_watch/pose_watch.h"
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -31,6 +32,27 @@ bool PoseWatch::is_look_due(Time now) const {
 
 bool PoseWatch::awaits_odometry() const {
   return rounds_.is_whole() && (odometry_.empty() || odometry_.latest_time() < sweeps_.newest());
+}
+
+/// The lasers were where they were; so the base is not where it was thought to be, by what this one has of the belief.
+void PoseWatch::mount(std::size_t laser, const Pose2& base_from_laser) {
+  constexpr double kMatters = 0.02;      // [m] and
+  constexpr double kMattersTurn = 0.01;  // [rad]: less lies within the belief
+  const Pose2 before = sweeps_.mount(laser, base_from_laser);
+  const Pose2 moved = before * inverse(base_from_laser);
+  if (norm(moved.position()) < kMatters && std::abs(moved.theta.radians()) < kMattersTurn) return;
+  const bool has_place = is_localized() || verdict().keeps_its_place();  // one laser after the other is found elsewhere
+  if (!has_place || localizer_->summary().modes.empty()) return localizer_->start_unknown();
+  const double share = 1.0 / static_cast<double>(sweeps_.lasers());
+  const Pose2 part{share * moved.x, share * moved.y, Angle::radians(share * moved.theta.radians())};
+  const double rest = 1.0 - share;  // of it may be the belief's, too
+  const double square = rest * rest * dot(moved.position(), moved.position());
+  BeliefMode mode = best_mode();
+  mode.map_from_robot = mode.map_from_robot * part;
+  mode.covariance[0] += square;
+  mode.covariance[4] += square;
+  mode.covariance[8] += rest * rest * moved.theta.radians() * moved.theta.radians();
+  localizer_->start_at(std::span{&mode, 1}, localizer_->odom_from_robot(), belief_told_);
 }
 
 std::optional<PoseWatch::Look> PoseWatch::look(Time now) {

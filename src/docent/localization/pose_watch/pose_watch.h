@@ -34,6 +34,8 @@ class PoseWatch {
 
   /// Odometry, in its own frame.
   void move(Time stamp, const Pose2& raw_from_base);
+  /// A laser is found to be mounted elsewhere: where the robot thought to be follows.
+  void mount(std::size_t laser, const Pose2& base_from_laser);
   void see(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading, Time now) {
     sweeps_.keep(laser, stamp, reading);
     rounds_.hear(laser, now);

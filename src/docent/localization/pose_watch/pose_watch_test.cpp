@@ -194,5 +194,19 @@ TEST_F(PoseWatch, NobodyIsLookedForFarAway) {
   EXPECT_TRUE(beams.ends.empty());
 }
 
+TEST_F(PoseWatch, ALaserThatIsFoundElsewhereMovesTheRobotAndNotTheLaser) {
+  find_itself();
+  for (int i = 0; i < 10; ++i) step();
+  const Pose2 before = watch->best_mode().map_from_robot;
+  const Pose2 found{0.1, 0.0, Angle::degrees(12.0)};
+  watch->mount(0, found);
+  const Pose2 laser = watch->best_mode().map_from_robot * found;
+  EXPECT_LT(distance(laser.position(), before.position()), 0.12);
+  EXPECT_LT(std::abs((laser.theta - before.theta).degrees()), 4.0) << "headings are 3 degrees apart";
+  EXPECT_TRUE(watch->verdict().keeps_its_place()) << "it says so when it has looked";
+  watch->mount(0, Pose2{0.105, 0.0, Angle::degrees(12.2)});
+  EXPECT_LT(distance((watch->best_mode().map_from_robot * found).position(), laser.position()), 1e-9) << "no matter";
+}
+
 }  // namespace
 }  // namespace docent::localization::pose_watch_test

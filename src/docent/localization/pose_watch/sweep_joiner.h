@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "docent/base/time.h"
@@ -23,6 +24,11 @@ class SweepJoiner {
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
   [[nodiscard]] bool has_new() const;  ///< since the last sweep
   [[nodiscard]] Time newest() const;   ///< stamp of the newest of what is new; of the beginning of time without any
+  /// It is found to be mounted elsewhere. @returns where it was thought to be
+  Pose2 mount(std::size_t laser, const Pose2& base_from_laser) {
+    return std::exchange(lasers_[laser].base_from_laser, base_from_laser);
+  }
+  [[nodiscard]] std::size_t lasers() const { return lasers_.size(); }
   /// All scans about the robot's centre at the stamp of the newest.
   struct Joined {
     sensor_models::RangeSweep sweep;

@@ -88,5 +88,17 @@ TEST_F(SweepJoiner, OfEachLaserTheNewestScanCounts) {
   EXPECT_NEAR(joined->sweep.beams[1].range, 5.1, 1e-6);
 }
 
+TEST_F(SweepJoiner, TakesALaserFromWhereItIsFoundToBeMounted) {
+  odometry.add(at(0.0), {});
+  odometry.add(at(0.1), {});
+  const Pose2 before = joiner.mount(0, Pose2{0.3, 0.0, {}});
+  see(0, at(0.1), 2.0F);
+  const auto after = joiner.join(odometry);
+  ASSERT_TRUE(after);
+  double farthest = 0.0;
+  for (const auto& beam : after->sweep.beams) farthest = std::max(farthest, beam.range);
+  EXPECT_NEAR(farthest, 2.3, 1e-6) << before.x;
+}
+
 }  // namespace
 }  // namespace docent::localization::sweep_joiner_test

@@ -31,14 +31,16 @@ Result<collision_avoidance::BaseLimits> limits_of(const robot::RobotBody& body) 
   return limits;
 }
 
-collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
-  return {from_message(scan.header.stamp),
-          base_from_sensor,
+/// With the stamp of its driver: `avoid` takes the clocks of all sensors into its own time.
+collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
+  return {from_message(scan.header.stamp) + seconds(place.delay),
+          place.base_from_sensor,
           scan.angle_min,
           scan.angle_increment,
           scan.range_min,
           scan.range_max,
-          scan.ranges};
+          scan.ranges,
+          place.delay};
 }
 
 const char* name_of(collision_avoidance::AvoiderDecision::State state) {
@@ -92,9 +94,8 @@ class AvoidModule final : public Module {
                                                  {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
-    subscribe_scanners(bus_, body_, [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
-      see(i, scan, body_.scanners[i].base_from_sensor());
-    });
+    subscribe_scanners(bus_, body_,
+                       [this](std::size_t i, const auto& scan, const auto& place) { see(i, scan, place); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
       if (!index) return;
@@ -144,6 +145,10 @@ class AvoidModule final : public Module {
       mode_.limits(limits);
       limit_speed();
     });
+    bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration, [this](const auto& calibration) {
+      mode_.calibration(calibration);
+      limit_speed();
+    });
     bus_.every(kModePeriod, [this] { limit_speed(); });
     bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const docent_msgs::Stop& stop) {
       avoider_.stop_by_hand(stop.is_stopped);
@@ -185,14 +190,14 @@ class AvoidModule final : public Module {
                          from_message(belief.odom_pose), hypotheses_.front().mass);
   }
 
-  void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const Pose2& base_from_sensor) {
+  void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
     // A scan of a part of the field would leave the rest as if nothing were there.
     constexpr double kFieldShare = 0.9;
     const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
     widest_field_[sensor] = std::max(widest_field_[sensor], field);
     if (field < kFieldShare * widest_field_[sensor]) return;
     const Time now = bus_.now();
-    avoider_.add_sweep(now, sensor, to_sweep(scan, base_from_sensor));
+    avoider_.add_sweep(now, sensor, to_sweep(scan, place));
     if (now - decided_before_ < seconds(kLeastPause)) return reflex();
     if (!avoider_.awaits_sweep(now, kTogether)) return decide();
     reflex();

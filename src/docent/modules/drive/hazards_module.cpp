@@ -1,11 +1,13 @@
 #include "docent/modules/drive/hazards_module.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
+#include "docent/collision_avoidance/virtual_measurements/mount_doubt.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/belief_cells.h"
@@ -22,6 +24,8 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
+        doubt_sigmas_{params.doubt_sigmas},
+        keep_{context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
@@ -30,6 +34,10 @@ class HazardsModule final : public Module {
       odometry_ = Odometry{from_message(odometry.header.stamp), from_message(odometry.pose.pose)};
       if (last_ && bus_.now() - published_ >= kMovingPeriod && is_carried()) publish();
     });
+    bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration,
+                                             [this](const auto& calibration) { doubt(calibration); });
+    bus_.subscribe<docent_msgs::Exploration>(topics::kExploration,
+                                             [this](const auto& survey) { mark_margin_ = survey.mark_margin; });
     // Says that it lives while the belief rests.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
@@ -44,6 +52,7 @@ class HazardsModule final : public Module {
   }
 
  private:
+  static constexpr double kBeside = 0.1;  // [m]: doubt alone never tells a robot that it touches something
   static constexpr double kBeliefLife = 3.0;  // [s]
   static constexpr Duration kMovingPeriod = std::chrono::milliseconds{80};
   /// So long a belief is carried on by odometry; then its own stamp stands, and avoidance slows down by its age.
@@ -76,6 +85,16 @@ class HazardsModule final : public Module {
     return norm(since.position()) > kMoved || std::abs(since.theta.radians()) > kTurned;
   }
 
+  /// The worst of the scanners: nobody knows to which of them the belief owes its pose.
+  void doubt(const docent_msgs::Calibration& calibration) {
+    doubt_ = {};
+    for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
+      if (mount.is_known) continue;
+      doubt_.heading = std::max(doubt_.heading, doubt_sigmas_ * mount.doubt_heading);
+      doubt_.position = std::max(doubt_.position, doubt_sigmas_ * mount.doubt_position);
+    }
+  }
+
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
     for (const auto& cell : belief.cells) poses_.push_back({{cell.x, cell.y}, cell.theta, cell.mass});
@@ -93,7 +112,7 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
       squares_.clear();
     }
-    const auto of_hazards = hazards_.measure(poses_, squares_);
+    auto of_hazards = hazards_.measure(poses_, squares_);
     if (belief.map_hash == kMapBeingMade && !belief.hypotheses.empty()) {
       // The area begins where the robot did, and lies as far off as the map that is being made: no belief about a place
       // in that map tells how far. It stands off what could be touched; hazards count from the whole belief.
@@ -101,7 +120,9 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{here.x, here.y}, here.theta, 1.0});
       squares_.clear();
     }
-    const auto of_border = border_.measure(poses_, squares_);
+    auto of_border = border_.measure(poses_, squares_);
+    collision_avoidance::lower_by_doubt(of_hazards.ranges, {doubt_.heading, doubt_.position + mark_margin_, keep_});
+    collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.heading, 0.0});
     possible_mass_ = of_hazards.possible_mass;
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
@@ -133,7 +154,11 @@ class HazardsModule final : public Module {
   transport::Bus& bus_;
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
-  bool best_pose_only_;  ///< crippled, see VirtualMeasurementParams
+  double doubt_sigmas_;
+  collision_avoidance::MountDoubt doubt_;  ///< in which the belief is not
+  double mark_margin_ = 0.0;               ///< [m] that the hazards themselves may lie off
+  double keep_;                            ///< [m], see MountDoubt
+  bool best_pose_only_;                    ///< crippled, see VirtualMeasurementParams
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;
   std::vector<collision_avoidance::WeightedSquare> squares_;

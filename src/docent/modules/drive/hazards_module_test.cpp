@@ -149,5 +149,32 @@ TEST_F(HazardsModule, SaysSoWhenTheRobotCannotBeWhereItIsBelieved) {
   EXPECT_EQ(module->health().reason, "the belief lies where the robot cannot be");
 }
 
+TEST_F(HazardsModule, KeepsOffMoreWhileMountsAndMarksAreDoubtful) {
+  start();
+  const auto calibrations = world->publisher(topics::kCalibration);
+  const auto surveys = world->publisher(topics::kExploration);
+  beliefs.publish(belief_at({{5.0, 10.0}}, 1.0));
+  run(0.1);
+  const float before = ahead();
+  const float aside = scans.back().ranges[kAhead + 10];
+  docent_msgs::Calibration calibration;
+  calibration.mounts.push_back({"front", 0.0, 0.0, 0.0, 0.0, 0.1, 0.1, false});
+  calibrations.publish(calibration);
+  run(0.1);
+  beliefs.publish(belief_at({{5.0, 10.0}}, 2.0));
+  run(0.1);
+  EXPECT_NEAR(ahead(), before - 0.25F, 0.01F) << "2.5 standard deviations";
+  EXPECT_LT(scans.back().ranges[kAhead + 10], aside - 0.5F) << "20 degrees aside the plate may lie, too";
+  calibration.mounts[0].is_known = true;
+  calibrations.publish(calibration);
+  docent_msgs::Exploration survey;
+  survey.mark_margin = 0.4;
+  surveys.publish(survey);
+  run(0.1);
+  beliefs.publish(belief_at({{5.0, 10.0}}, 3.0));
+  run(0.1);
+  EXPECT_NEAR(ahead(), before - 0.4F, 0.01F);
+}
+
 }  // namespace
 }  // namespace docent::modules

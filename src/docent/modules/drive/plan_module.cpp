@@ -87,8 +87,10 @@ class PlanModule final : public Module {
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
                                        [this](const auto& odometry) { pose_.on_odometry(odometry); });
-    subscribe_scanners(bus_, body,
-                       [this](std::size_t i, const auto& scan) { navigator_.lookout().see(i, sweep_of(scan)); });
+    subscribe_scanners(bus_, body, [this](std::size_t i, const auto& scan, const auto& place) {
+      navigator_.lookout().mount(i, place.base_from_sensor);
+      navigator_.lookout().see(i, sweep_of(scan));
+    });
     bus_.subscribe<sensor_msgs::LaserScan>(
         topics::kVirtualScan, [this](const auto& scan) { navigator_.lookout().see_hazards(sweep_of(scan)); });
     bus_.subscribe<nav_msgs::OccupancyGrid>(topics::kLiveMap, [this](const auto& map) {

@@ -57,6 +57,7 @@ docent_msgs::Exploration report_message(const planning::Surveyor::Report& report
   message.map = report.map;
   message.warning = report.warning;
   message.order = to_text(report.order);
+  message.mark_margin = report.mark_margin;
   return message;
 }
 
@@ -86,7 +87,10 @@ class ExploreModule final : public Module {
         exploration_{bus_.publisher(topics::kExploration)} {
     bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) { note(people); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { move(odometry); });
-    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { see(i, scan); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
+      surveyor_.mount(i, place.base_from_sensor);
+      see(i, scan);
+    });
     bus_.subscribe<docent_msgs::Stop>(topics::kStop,
                                       [this](const auto& stop) { surveyor_.note_stop(stop.is_stopped); });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering,
@@ -105,6 +109,7 @@ class ExploreModule final : public Module {
     if (!surveyor_.fault().empty()) return {"faulted", surveyor_.fault()};
     if (!surveyor_.has_odometry()) return {"degraded", "no odometry"};
     if (!surveyor_.has_begun()) return {"starting", "no scan of all lasers yet"};
+    if (std::string plea = surveyor_.plea(); !plea.empty()) return {"degraded", std::move(plea)};
     return {};
   }
 

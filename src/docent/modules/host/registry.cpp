@@ -15,6 +15,7 @@
 #include "docent/modules/guide/head_module.h"
 #include "docent/modules/guide/mission_module.h"
 #include "docent/modules/guide/sound_module.h"
+#include "docent/modules/perception/calibrate_module.h"
 #include "docent/modules/perception/localize_module.h"
 #include "docent/modules/perception/map_module.h"
 #include "docent/modules/perception/people_module.h"
@@ -28,6 +29,7 @@ constexpr std::array kModules{
     ModuleEntry{.name = "avoid", .make = make_avoid, .parameters = parameters_of_avoid, .is_urgent = true, .explores = true, .marks = true},
     ModuleEntry{.name = "hazards", .make = make_hazards, .parameters = parameters_of_hazards, .is_urgent = true, .explores = true, .marks = true},
     ModuleEntry{.name = "localize", .make = make_localize, .parameters = parameters_of_localize, .is_prompt = true, .keeps_cache = true, .marks = true},
+    ModuleEntry{.name = "calibrate", .make = make_calibrate, .parameters = parameters_of_calibrate, .explores = true, .marks = true},
     ModuleEntry{.name = "map", .make = make_map, .parameters = parameters_of_map, .marks = true},
     ModuleEntry{.name = "people", .make = make_people, .parameters = parameters_of_people, .explores = true, .marks = true},
     ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},

@@ -149,7 +149,10 @@ class LocalizeModule final : public Module {
       watch_.move(in_local_time("odometry", odometry.header.stamp), from_message(odometry.pose.pose));
       look_if_due();
     });
-    scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { on_scan(i, scan); });
+    scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) {
+      watch_.mount(i, place.base_from_sensor);
+      on_scan(i, scan);
+    });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);

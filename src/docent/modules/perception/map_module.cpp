@@ -40,7 +40,10 @@ class MapModule final : public Module {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       pose_.on_odometry(odometry, in_local_time("odometry", odometry.header));
     });
-    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { take(i, scan); });
+    subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
+      base_from_laser_[i] = place.base_from_sensor;
+      take(i, scan);
+    });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
         take(range, body_.base_from_sonar(*index),

@@ -28,6 +28,12 @@ const museum::Mode* MuseumMode::mode(Time now) const {
 }
 
 std::optional<double> MuseumMode::max_speed(Time now) const {
+  const auto allowed = allowed_speed(now);
+  if (unknown_speed_ <= 0.0) return allowed;
+  return allowed ? std::min(*allowed, unknown_speed_) : unknown_speed_;
+}
+
+std::optional<double> MuseumMode::allowed_speed(Time now) const {
   if (!is_by_hours()) return limits_->max_speed;
   const museum::Mode* present = mode(now);
   if (present == nullptr) return limits_ ? std::optional{limits_->max_speed} : std::nullopt;

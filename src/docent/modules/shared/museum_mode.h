@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "docent/messages/calibration_messages.h"
 #include "docent/messages/operation_messages.h"
 #include "docent/modules/shared/module.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -19,13 +20,15 @@ class MuseumMode {
       : museum_{context.museum}, is_virtual_{context.virtual_time}, day_begins_{context.day_begins} {}
 
   void limits(const docent_msgs::Limits& limits) { limits_ = limits; }
+  /// Until it is known where the scanners are mounted the robot is slow, whatever others allow.
+  void calibration(const docent_msgs::Calibration& calibration) { unknown_speed_ = calibration.most_speed; }
 
   [[nodiscard]] bool is_by_hours() const {
     return !limits_ || parse<OperatingMode>(limits_->mode) == OperatingMode::hours;
   }
   [[nodiscard]] std::string name(Time now) const;  ///< open, web, closed
   [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
-  /// [m/s]; nullopt: neither operator nor museum say one.
+  /// [m/s]; nullopt: nobody says one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;
   [[nodiscard]] int minute_of_day(Time now) const;  ///< 0..1439
   [[nodiscard]] double wait_s(Time now) const;      ///< [s] at each exhibit
@@ -34,11 +37,13 @@ class MuseumMode {
 
  private:
   [[nodiscard]] const museum::Mode* mode(Time now) const;
+  [[nodiscard]] std::optional<double> allowed_speed(Time now) const;
 
   const museum::Museum& museum_;
   bool is_virtual_;
   Duration day_begins_;
   std::optional<docent_msgs::Limits> limits_;
+  double unknown_speed_ = 0.0;  ///< [m/s]; 0: no limit
 };
 
 }  // namespace docent::modules

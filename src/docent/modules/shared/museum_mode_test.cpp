@@ -75,5 +75,16 @@ TEST_F(MuseumModeTest, AMuseumWithoutModesIsOpen) {
   EXPECT_EQ(mode_from("3").max_speed({}), std::nullopt);
 }
 
+TEST_F(MuseumModeTest, WhoDoesNotKnowItsScannersIsSlowWhateverIsAllowed) {
+  MuseumMode mode = mode_from("10");
+  docent_msgs::Calibration calibration;
+  calibration.most_speed = 0.3;
+  mode.calibration(calibration);
+  EXPECT_EQ(mode.max_speed(at(1)), 0.3);
+  calibration.most_speed = 0.0;
+  mode.calibration(calibration);
+  EXPECT_EQ(mode.max_speed(at(1)), 0.7);
+}
+
 }  // namespace
 }  // namespace docent::modules

@@ -56,4 +56,20 @@ std::vector<Pose2> mounts_of(const std::vector<robot::Scanner>& scanners) {
   return mounts;
 }
 
+std::shared_ptr<const std::vector<ScannerPlace>> follow_calibration(transport::Bus& bus, const robot::RobotBody& body) {
+  auto places = std::make_shared<std::vector<ScannerPlace>>();
+  std::vector<std::string> names;
+  for (const robot::Scanner& scanner : body.scanners) {
+    places->push_back({scanner.base_from_sensor(), 0.0});
+    names.push_back(scanner.name);
+  }
+  bus.subscribe<docent_msgs::Calibration>(topics::kCalibration, [places, names](const auto& calibration) {
+    for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == mount.scanner) (*places)[i] = {{mount.x, mount.y, Angle::radians(mount.heading)}, mount.delay};
+    }
+  });
+  return places;
+}
+
 }  // namespace docent::modules

@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "docent/messages/conversions.h"
 #include "docent/messages/scanners/scan_reader.h"
 #include "docent/messages/topics.h"
 #include "docent/robot/robot_config.h"
@@ -29,10 +31,11 @@ class ScannerReaders {
 };
 
 /// Calls `on_scan(index, scan)` for every sweep of every laser scanner that the body has, as ScannerReaders::read gives
-/// it.
+/// it, with the stamp that the driver gave it.
 /// @returns who reads them
 template <class F>
-std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_scan) {
+std::shared_ptr<const ScannerReaders> subscribe_stamped_scanners(transport::Bus& bus, const robot::RobotBody& body,
+                                                                 F on_scan) {
   const auto readers = std::make_shared<ScannerReaders>(body);
   for (std::size_t i = 0; i < body.scanners.size(); ++i) {
     bus.subscribe<sensor_msgs::LaserScan>(
@@ -42,7 +45,38 @@ std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, co
   return readers;
 }
 
-/// [scanners] where they are mounted.
+/// Where a scanner is mounted and how late its stamps are, as far as is known now.
+struct ScannerPlace {
+  Pose2 base_from_sensor;
+  double delay = 0.0;  ///< [s] that was taken from the stamp of the scan
+};
+
+/// [scanners] where they are mounted, as robot.yaml says.
 [[nodiscard]] std::vector<Pose2> mounts_of(const std::vector<robot::Scanner>& scanners);
+
+/// The places of all scanners: as robot.yaml has them until the module `calibrate` says otherwise.
+[[nodiscard]] std::shared_ptr<const std::vector<ScannerPlace>> follow_calibration(transport::Bus& bus,
+                                                                                  const robot::RobotBody& body);
+
+/// Calls `on_scan(index, scan, place)`, or `on_scan(index, scan)`, for every sweep of every laser scanner that the body
+/// has, as ScannerReaders::read gives it; with the stamp of the moment that it is of, as far as that is known.
+/// @returns who reads them
+template <class F>
+std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_scan) {
+  const auto tell = [on_scan](std::size_t i, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
+    if constexpr (std::is_invocable_v<F, std::size_t, const sensor_msgs::LaserScan&, const ScannerPlace&>)
+      on_scan(i, scan, place);
+    else
+      on_scan(i, scan);
+  };
+  return subscribe_stamped_scanners(
+      bus, body, [tell, places = follow_calibration(bus, body)](std::size_t i, const sensor_msgs::LaserScan& scan) {
+        const ScannerPlace& place = (*places)[i];
+        if (place.delay == 0.0) return tell(i, scan, place);
+        sensor_msgs::LaserScan earlier = scan;
+        earlier.header.stamp = to_message(from_message(scan.header.stamp) - seconds(place.delay));
+        tell(i, earlier, place);
+      });
+}
 
 }  // namespace docent::modules

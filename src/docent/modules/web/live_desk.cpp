@@ -28,7 +28,10 @@ void LiveDesk::begin(telepresence::WebServer& server) {
 void LiveDesk::subscribe() {
   const auto see = [this](const auto& message) { view_.see(message); };
   bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, see);
-  subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan) { view_.see_scan(i, scan); });
+  subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) {
+    view_.mount(i, place.base_from_sensor);
+    view_.see_scan(i, scan);
+  });
   bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, see);
   bus_.subscribe<docent_msgs::People>(topics::kPeople, see);
   bus_.subscribe<docent_msgs::Belief>(topics::kBelief, see);

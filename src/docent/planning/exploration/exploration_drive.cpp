@@ -49,6 +49,11 @@ ExplorationDrive::ExplorationDrive(const ExplorationDriveParams& params, Explore
   explorer_.set_home(home);
 }
 
+void ExplorationDrive::set_home(Point2 home) {
+  home_ = home;
+  explorer_.set_home(home);
+}
+
 void ExplorationDrive::set_way(std::vector<Point2> cells) { way_ = smoothed(cells); }
 
 void ExplorationDrive::note_held_up(Point2 robot, bool stays, Time now) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,10 @@ class ExplorationDrive {
   void plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now, Hindrance hindrance = Hindrance::unknown);
   /// See `Explorer::set_doubt`.
   void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
+  /// See `Explorer::set_mark_margin`.
+  void set_mark_margin(std::function<double(Point2)> margin) { explorer_.set_mark_margin(std::move(margin)); }
+  /// [m], map: where it comes back to in the end.
+  void set_home(Point2 home);
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.
   struct Ahead {
     std::vector<Point2> via;

@@ -120,9 +120,12 @@ Clearance Explorer::clearance(std::optional<Point2> robot, bool is_squeezing, bo
   return result;
 }
 
-bool Explorer::may_stand(Point2 place, const Clearance& clearance) const {
-  constexpr double kRounding = 1e-6;  // [m]
+bool Explorer::may_stand(Point2 place, Clearance clearance) const {
+  constexpr double kRounding = 1e-6;   // [m]
+  constexpr double kMostMargin = 5.0;  // [m]: whoever knows less of its marks stays where it is
   if (room_on_ground(area_, {}, place, params_.robot_radius, clearance) < 0.0) return false;
+  if (mark_margin_ && !hazards_.empty() && clearance.hazards > params_.tight_margin)
+    clearance.hazards += std::min(kMostMargin, mark_margin_(place));
   const double keep = params_.robot_radius + clearance.hazards;
   for (const Hazard& hazard : hazards_) {
     if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;

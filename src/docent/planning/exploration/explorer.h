@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -93,6 +94,8 @@ class Explorer {
 
   /// How far off, by one standard deviation [m], what people have marked may lie from the robot's place on the map.
   void set_doubt(double sigma) { doubt_ = sigma; }
+  /// [m] that marks near a place may lie off beside that, all but surely: the robot was set down by hand.
+  void set_mark_margin(std::function<double(Point2)> margin) { mark_margin_ = std::move(margin); }
   /// [m], map: what is near to it is explored first.
   void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
@@ -120,7 +123,7 @@ class Explorer {
     std::vector<CellIndex> gaps;      ///< the same, too narrow by what is known, but perhaps only seen badly
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
-  [[nodiscard]] bool may_stand(Point2 place, const Clearance& clearance) const;
+  [[nodiscard]] bool may_stand(Point2 place, Clearance clearance) const;
   [[nodiscard]] Clearance clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const;
   [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing = false) const;
   [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
@@ -135,6 +138,7 @@ class Explorer {
   std::vector<Hazard> hazards_;
   Polygon area_;
   double doubt_ = 0.0;
+  std::function<double(Point2)> mark_margin_;  ///< none: they lie where they are said to
   std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;

@@ -324,5 +324,18 @@ TEST(Explorer, FromTooNearToTheBorderTheWayLeadsAway) {
   }
 }
 
+TEST(Explorer, KeepsOffMarksAsFarAsTheyMayLieOff) {
+  OccupancyGrid map;
+  map.frame = {200, 100, 0.05, {0.0, 0.0}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kFree);
+  const std::vector<Polygon> hazards{{{4.5, 0.0}, {5.5, 0.0}, {5.5, 3.0}, {4.5, 3.0}}};  // 2 m are left beside it
+  Explorer explorer{{}, hazards};
+  EXPECT_FALSE(explorer.way_to(map, {2.0, 2.5}, {8.0, 2.5}).empty());
+  explorer.set_mark_margin([](Point2) { return 1.6; });
+  EXPECT_TRUE(explorer.way_to(map, {2.0, 2.5}, {8.0, 2.5}).empty());
+  explorer.set_mark_margin([](Point2 place) { return place.x > 9.0 ? 1.6 : 0.0; });
+  EXPECT_FALSE(explorer.way_to(map, {2.0, 2.5}, {8.0, 2.5}).empty()) << "elsewhere it knows them better";
+}
+
 }  // namespace
 }  // namespace docent::planning::explorer_test

@@ -26,6 +26,8 @@ class Lookout {
   explicit Lookout(std::vector<Pose2> base_from_scanner);
 
   void see(std::size_t scanner, Sweep sweep) { newest_[scanner] = std::move(sweep); }
+  /// It is found to be mounted elsewhere.
+  void mount(std::size_t scanner, const Pose2& base_from_scanner) { base_from_scanner_[scanner] = base_from_scanner; }
   /// Virtual measurements, base frame.
   void see_hazards(Sweep sweep) { hazards_ = std::move(sweep); }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "docent/base/result.h"
@@ -44,6 +45,10 @@ class Keyframes {
   /// @param base_from_laser  [lasers], at least one: where they are mounted
   Keyframes(const KeyframeParams& params, const mapping::PointSweepParams& points, std::vector<Pose2> base_from_laser);
 
+  /// A laser is found to be mounted elsewhere. @returns where it was thought to be
+  Pose2 mount(std::size_t laser, const Pose2& base_from_laser) {
+    return std::exchange(base_from_laser_[laser], base_from_laser);
+  }
   /// The newest sweep of a laser, in place of the one before.
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading);
   /// After a sweep of the first laser: all lasers about the robot's centre at that moment.

@@ -26,6 +26,16 @@ Pose2 SurveyFrame::begin_moment(const Pose2& odom_from_base) {
   return *start_from_odom_ * odom_from_base;
 }
 
+void SurveyFrame::lie(const Pose2& after_from_before) {
+  if (map_from_odom_) map_from_odom_ = after_from_before * *map_from_odom_;
+}
+
+void SurveyFrame::begin_anew(const Pose2& site_from_survey) {
+  constexpr double kShortWay = 15.0;  // [m]: so far odometry is better than a map that was drawn wrongly
+  if (way_ > kShortWay && map_from_odom_) start_from_odom_ = inverse(site_from_survey) * *map_from_odom_;
+  if (start_from_odom_) map_from_odom_ = site_from_survey * *start_from_odom_;
+}
+
 void SurveyFrame::end_moment(const Pose2& map_from_base) { map_from_odom_ = map_from_base * inverse(*last_); }
 
 std::optional<Pose2> SurveyFrame::map_from_base() const {

@@ -18,8 +18,13 @@ class SurveyFrame {
 
   /// Odometry, as it comes.
   void move(Time stamp, const collision_avoidance::BaseState& state);
-  /// A moment that the map gets. @returns the pose by odometry alone, from where the robot began [m], map
+  /// A moment that the map gets. @returns the pose by odometry alone, from where the robot began [m], survey
   Pose2 begin_moment(const Pose2& odom_from_base);
+  /// The map begins anew, from where odometry has the robot: what is seen now contradicts what was drawn.
+  /// @param site_from_survey  where the survey lies
+  void begin_anew(const Pose2& site_from_survey);
+  /// All of the map lies elsewhere.
+  void lie(const Pose2& after_from_before);
   /// Where the map found the robot to be at that moment.
   void end_moment(const Pose2& map_from_base);
 

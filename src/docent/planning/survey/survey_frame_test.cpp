@@ -51,5 +51,20 @@ TEST(SurveyFrame, WhereOdometryBeganAnewItIsBackAtHome) {
   expect_near(frame.begin_moment({0.0, 0.0, {}}), kHome);
 }
 
+TEST(SurveyFrame, LiesElsewhereAndBeginsAnew) {
+  SurveyFrame frame{{1.0, 0.0, {}}};
+  frame.move(time_from_seconds(1.0), {{}, {}});
+  frame.end_moment(frame.begin_moment({}));
+  frame.move(time_from_seconds(2.0), {{2.0, 0.0, {}}, {}});
+  frame.end_moment(frame.begin_moment({2.0, 0.0, {}}));
+  EXPECT_NEAR(frame.map_from_base()->x, 3.0, 1e-12);
+  const Pose2 site_from_survey{0.5, 0.25, {}};
+  frame.lie(site_from_survey);
+  EXPECT_NEAR(frame.map_from_base()->x, 3.5, 1e-12);
+  EXPECT_NEAR(frame.map_from_base()->y, 0.25, 1e-12);
+  frame.begin_anew(site_from_survey);
+  EXPECT_NEAR(frame.map_from_base()->x, 3.5, 1e-12) << "from where odometry has it";
+}
+
 }  // namespace
 }  // namespace docent::planning::survey_frame_test

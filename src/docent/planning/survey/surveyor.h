@@ -9,6 +9,7 @@
 
 #include "docent/planning/exploration/exploration_drive.h"
 #include "docent/planning/exploration/explorer.h"
+#include "docent/planning/mark_alignment/mark_alignment.h"
 #include "docent/planning/survey/keyframes.h"
 #include "docent/planning/survey/normal_pose.h"
 #include "docent/planning/survey/survey_frame.h"
@@ -20,9 +21,12 @@
 
 namespace docent::planning {
 
-/// How far a survey has come. mapping: the robot stands, and the map is made of what it has seen.
-enum class SurveyPhase { starting, exploring, returning, mapping, done };
-constexpr auto words_of(SurveyPhase) { return std::array{"starting", "exploring", "returning", "mapping", "done"}; }
+/// How far a survey has come. mapping: the robot stands, and the map is made of what it has seen; stranded: the map is
+/// made, but the robot stands elsewhere than at its home.
+enum class SurveyPhase { starting, exploring, returning, mapping, done, stranded };
+constexpr auto words_of(SurveyPhase) {
+  return std::array{"starting", "exploring", "returning", "mapping", "done", "stranded"};
+}
 
 /// The building, as far as people know it before there is a map.
 struct SurveySite {
@@ -50,6 +54,8 @@ class Surveyor {
   void note_hindrance(ExplorationDrive::Hindrance hindrance) { hindrance_ = hindrance; }  ///< what avoidance says
   void note_stop(bool is_stopped) { is_stopped_ = is_stopped; }  ///< somebody has pressed the stop button
   void note_steering(Time now) { steered_ = now; }               ///< somebody steers by hand
+  /// A laser is found to be mounted elsewhere: what was drawn so far is forgotten, where that matters.
+  void mount(std::size_t laser, const Pose2& base_from_laser);
   void keep(std::size_t laser, Time stamp, const sensor_models::LaserReading& reading) {
     keyframes_.keep(laser, stamp, reading);
   }
@@ -78,6 +84,8 @@ class Surveyor {
   [[nodiscard]] bool has_odometry() const { return frame_.odom_from_base().has_value(); }
   [[nodiscard]] bool has_begun() const { return frame_.map_from_odom().has_value(); }
   [[nodiscard]] const std::string& fault() const { return fault_; }  ///< why there is no map in the end
+  /// What a technician should look to: it was set down elsewhere than it was told, or nobody knows; empty: nothing.
+  [[nodiscard]] std::string plea() const;
   /// Where it is, and where odometry has it then; none before the first moment.
   struct Place {
     NormalPose pose;
@@ -98,21 +106,29 @@ class Surveyor {
     std::vector<Explorer::Unreached> unreached;  ///< in the end
     std::string map;                             ///< its file; empty: it is not made yet
     std::string warning;                         ///< why it is not to be trusted; empty: it is
+    double mark_margin = 0.0;                    ///< [m] that it keeps off what people have marked near it, too
   };
   [[nodiscard]] Report report() const;
 
  private:
   [[nodiscard]] SurveyPhase phase() const;
+  void align_marks();
   [[nodiscard]] bool is_held(Time now) const;
   [[nodiscard]] ExplorationDrive::Hindrance hindrance() const;
   void keep_place(Time now) const;
 
   SurveyorParams params_;
+  double body_radius_;
   SurveyStore store_;
   SurveyFrame frame_;
   Keyframes keyframes_;
   Walkers walkers_;
   SurveyMap map_;
+  MarkAlignment alignment_;
+  Pose2 start_;  ///< site, as it was told
+  bool has_marks_ = false;
+  std::size_t aligned_moments_ = 0;
+  bool is_away_ = false;  ///< in the end
   ExplorationDrive drive_;
   ExplorationOrder order_;
   ExplorationDrive::Hindrance hindrance_ = ExplorationDrive::Hindrance::unknown;

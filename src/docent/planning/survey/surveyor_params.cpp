@@ -9,6 +9,7 @@ Result<void> SurveyorParams::validate() const {
   if (auto valid = keyframes.validate(); !valid) return fail("keyframes." + valid.error().message);
   if (auto valid = explorer.validate(); !valid) return fail("explorer." + valid.error().message);
   if (auto valid = drive.validate(); !valid) return fail("drive." + valid.error().message);
+  if (auto valid = alignment.validate(); !valid) return fail("alignment." + valid.error().message);
   if (auto valid = mapping.validate(); !valid) return fail("mapping." + valid.error().message);
   if (auto valid = map.validate(); !valid) return fail("map." + valid.error().message);
   return {};

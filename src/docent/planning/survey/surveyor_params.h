@@ -5,6 +5,7 @@
 #include "docent/mapping/occupancy/scan_mapper.h"
 #include "docent/planning/exploration/exploration_drive.h"
 #include "docent/planning/exploration/explorer.h"
+#include "docent/planning/mark_alignment/mark_alignment.h"
 #include "docent/planning/survey/keyframes.h"
 
 namespace docent::planning {
@@ -14,6 +15,7 @@ struct SurveyorParams {
   KeyframeParams keyframes;
   ExplorerParams explorer;
   ExplorationDriveParams drive;
+  MarkAlignmentParams alignment;
   mapping::GraphMapperParams mapping;
   /// Free is what two sweeps at least have passed: a single beam may have lost its echo.
   mapping::ScanMapperParams map{.reach = 12.0, .empty_reach = 5.0, .free = 0.25, .fewest_hits = 2};
@@ -27,6 +29,7 @@ struct SurveyorParams {
     v("keyframes", keyframes);
     v("explorer", explorer);
     v("drive", drive);
+    v("alignment", alignment);
     v("mapping", mapping);
     v("map", map);
     v("least_sigma", least_sigma);

@@ -217,5 +217,57 @@ TEST_F(Surveyor, GoesRoundWhereItIsHeldUpButNotWhileSomebodyHoldsIt) {
   EXPECT_GT(side_of_way(false, false), straight + 0.2);
 }
 
+TEST_F(Surveyor, LaysItsSiteOntoTheWallsWhenItWasSetDownAskew) {
+  length = 5.0;
+  site.area = {{0.3, 0.3}, {4.7, 0.3}, {4.7, 3.7}, {0.3, 3.7}};
+  site.hazards = {{{4.0, 3.0}, {4.2, 3.0}, {4.2, 3.2}}};
+  begin();
+  EXPECT_GT(surveyor->report().mark_margin, -1e-9);
+  // Truly it stands 8 degrees to the left of what it was told: odometry begins there.
+  const Pose2 truth{1.5, 2.0, Angle::degrees(8.0)};
+  for (int i = 0; i < 40; ++i) {
+    const Pose2 moved{0.05 * i, 0.0, Angle::degrees(9.0 * i)};
+    now = now + seconds(0.1);
+    surveyor->move(now, {moved, {}});
+    for (const std::size_t laser : {1U, 0U})
+      surveyor->keep(
+          laser, now,
+          testing::reading_of(testing::ranges_in_room(truth * moved * testing::two_lasers()[laser], length)));
+    surveyor->add_moment();
+    surveyor->plan(now);
+  }
+  const Pose2 last = truth * Pose2{0.05 * 39, 0.0, Angle::degrees(9.0 * 39)};
+  const auto place = surveyor->place();
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->pose.map_from_base.x, last.x, 0.1);
+  EXPECT_NEAR(place->pose.map_from_base.y, last.y, 0.1);
+  EXPECT_LT(std::abs((place->pose.map_from_base.theta - last.theta).degrees()), 1.5);
+  EXPECT_LT(surveyor->report().mark_margin, 0.3);
+  EXPECT_NE(surveyor->plea().find("degrees from where I was told"), std::string::npos) << surveyor->plea();
+}
+
+TEST_F(Surveyor, AMapThatEndsAwayFromHomeIsNotDone) {
+  params.drive.enclosed = 3.0;
+  params.drive.patience = 2.0;
+  begin();
+  for (int i = 0; i < 30; ++i) sense(home * Pose2{0.08 * i, 0.0, {}});
+  const Pose2 far = home * Pose2{0.08 * 29, 0.0, {}};
+  for (int i = 0; i < 900 && !surveyor->is_done(); ++i) stand(far, 1);  // something holds it for ever
+  ASSERT_TRUE(surveyor->is_done());
+  ASSERT_TRUE(surveyor->finish(now));
+  EXPECT_EQ(phase(), SurveyPhase::stranded);
+  EXPECT_NE(surveyor->report().warning.find("from its home"), std::string::npos);
+}
+
+TEST_F(Surveyor, BeginsTheMapAnewWhenALaserIsFoundElsewhere) {
+  for (int i = 0; i < 10; ++i) sense(home * Pose2{0.2 * i, 0.0, {}});
+  surveyor->plan(now);
+  surveyor->mount(0, testing::two_lasers()[0]);
+  EXPECT_GT(surveyor->report().known_m2, 1.0) << "where it was";
+  surveyor->mount(0, Pose2{0.0, 0.0, Angle::degrees(5.0)});
+  EXPECT_TRUE(surveyor->map().cells.empty());
+  EXPECT_NEAR(surveyor->place()->pose.map_from_base.x, 1.5 + 1.8, 0.01) << "from where odometry has it";
+}
+
 }  // namespace
 }  // namespace docent::planning::surveyor_test

@@ -408,10 +408,11 @@ Result<Scenario> read_scenario(const YamlFile& file) {
     const YAML::Node& root = file.root();
     if (!root.IsMap()) throw YamlFault{file.fault(root, "expected a mapping with 'events'")};
     for (const auto& entry : root) {
-      if (!entry.first.IsScalar() || entry.first.Scalar() != "events") {
-        throw YamlFault{file.fault(
-            entry.first, "unknown key '" + (entry.first.IsScalar() ? entry.first.Scalar() : "") + "' (known: events)")};
-      }
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      if (key == "build")
+        scenario.build = read_build_errors(file, entry.second);
+      else if (key != "events")
+        throw YamlFault{file.fault(entry.first, "unknown key '" + key + "' (known: build, events)")};
     }
     const YAML::Node events = root["events"];
     if (!events.IsDefined() || !events.IsSequence()) throw YamlFault{file.fault(root, "'events' must be a list")};

@@ -9,6 +9,7 @@
 
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
+#include "docent/simulator/scenario/build_errors.h"
 #include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -172,12 +173,13 @@ struct ScenarioEvent {
 /// for a moment holds up none of the others.
 struct Scenario {
   std::vector<ScenarioEvent> events;
+  BuildErrors build;  ///< of the whole run
 };
 
-/// Reads `events:`, a list of `{at: SECONDS, KIND: {...}}` with KIND one of kidnap, fault, stool, closed, pose_error,
-/// visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, odometry_jump,
-/// lie, transport. With `during: PHASE` it waits for that phase of the mission, with `after: SECONDS` until the phase
-/// has lasted so long. Error: "FILE:LINE: ...".
+/// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
+/// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
+/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport. With `during: PHASE` it waits for that
+/// phase of the mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);
 

@@ -109,7 +109,7 @@ TEST_P(BrokenScenario, IsRefusedInOneLineWithFileAndLine) {
 constexpr Broken kBroken[] = {
     {"", "s.yaml:1: expected a mapping with 'events'"},
     {"events: 3", "s.yaml:1: 'events' must be a list"},
-    {"event: []", "s.yaml:1: unknown key 'event' (known: events)"},
+    {"event: []", "s.yaml:1: unknown key 'event' (known: build, events)"},
     {"events:\n  - 5", "s.yaml:2: expected an event {at: SECONDS, KIND: {...}}"},
     {"events:\n  - {kidnap: }", "s.yaml:2: missing key 'at'"},
     {"events:\n  - {at: 3}", "s.yaml:2: the event has no kind"},

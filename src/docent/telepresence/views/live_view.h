@@ -25,6 +25,7 @@ class LiveView {
   void see(const nav_msgs::Odometry& odometry) { carrier_.add_odometry(odometry); }
   /// @pre scanner < mounts.size()
   void see_scan(std::size_t scanner, const sensor_msgs::LaserScan& scan) { scans_[scanner] = scan; }
+  void mount(std::size_t scanner, const Pose2& base_from_sensor) { mounts_[scanner] = base_from_sensor; }
   void see(const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; }
   void see(const docent_msgs::People& people) { people_ = people; }
   void see(const docent_msgs::Belief& belief);
@@ -47,7 +48,7 @@ class LiveView {
   [[nodiscard]] LiveFrame frame(Time now) const;
   void add_scans(LiveFrame& frame) const;
 
-  const std::vector<Pose2> mounts_;
+  std::vector<Pose2> mounts_;
   const std::size_t scan_step_;
   BeliefCarrier carrier_;
   std::vector<sensor_msgs::LaserScan> scans_;  ///< [scanners] newest sweeps

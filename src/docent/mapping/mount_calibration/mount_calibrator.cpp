@@ -1,0 +1,251 @@
+#include "docent/mapping/mount_calibration/mount_calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+namespace docent::mapping {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kNewest = 12;   // pairs that may tell that a mount was knocked
+constexpr double kStrange = 6.0;      // mean squared sigmas of them, where some 3 are usual
+constexpr std::size_t kAnd = 5;       // characters
+constexpr std::size_t kFitEvery = 3;  // pairs, of what is settled
+constexpr double kMuchBetter = 0.6;   // of that, with another mount
+constexpr double kHysteresis = 0.6;   // of what is named: below it nothing is corrected any more
+
+std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer, format, a, b, c);
+  return buffer;
+}
+
+/// Half of `limit` is passed beyond doubt, and the limit itself by all appearance.
+bool is_beyond(double value, double sigma, double limit, double sigmas) {
+  return std::abs(value) >= limit && std::abs(value) - sigmas * sigma >= 0.5 * limit;
+}
+
+/// What of a scanner contradicts robot.yaml.
+struct Contradictions {
+  bool is_turned = false;
+  bool is_displaced = false;
+  bool is_late = false;
+};
+
+/// Worth to be told, after what was told last.
+bool is_news(const MountEstimate& now, const MountEstimate& told) {
+  constexpr double kTurn = 0.3 * kDegree;
+  constexpr double kPlace = 0.01;  // [m]
+  constexpr double kDelay = 0.01;  // [s]
+  constexpr double kSurer = 0.6;   // of the standard deviation
+  const Pose2& a = now.state.base_from_sensor;
+  const Pose2& b = told.state.base_from_sensor;
+  return std::abs((a.theta - b.theta).radians()) > kTurn || distance(a.position(), b.position()) > kPlace ||
+         std::abs(now.state.delay - told.state.delay) > kDelay ||
+         now.sigma(kMountHeading) < kSurer * told.sigma(kMountHeading) ||
+         now.sigma_position() < kSurer * told.sigma_position();
+}
+
+/// Puts it into words.
+void say(CalibratedScanner& scanner, const Contradictions& what, const NominalScanner& nominal) {
+  const MountEstimate& now = scanner.estimate;
+  const auto names = [&](const char* kind) { return scanner.finding.find(kind) != std::string::npos; };
+  const bool is_as_before =
+      names("turned") == what.is_turned && names("displaced") == what.is_displaced && names("stamps") == what.is_late;
+  if (is_as_before && !is_news(now, scanner.told)) return;
+  scanner.told = now;
+  scanner.finding.clear();
+  const Pose2& found = now.state.base_from_sensor;
+  if (what.is_turned)
+    scanner.finding +=
+        text(" and turned by %+.1f ± %.1f degrees", (found.theta - nominal.base_from_sensor.theta).degrees(),
+             now.sigma(kMountHeading) / kDegree);
+  if (what.is_displaced)
+    scanner.finding +=
+        text(" and displaced by x %+.0f y %+.0f ± %.0f cm", 100.0 * (found.x - nominal.base_from_sensor.x),
+             100.0 * (found.y - nominal.base_from_sensor.y), std::max(1.0, 100.0 * now.sigma_position()));
+  if (what.is_late)
+    scanner.finding += text(" and its stamps %+.0f ± %.0f ms late", 1000.0 * now.state.delay,
+                            std::max(1.0, 1000.0 * now.sigma(kMountDelay)));
+  if (!scanner.finding.empty()) scanner.finding = "scanner " + nominal.name + ": " + scanner.finding.substr(kAnd);
+}
+
+}  // namespace
+
+MountCalibrator::MountCalibrator(const MountCalibratorParams& params, std::vector<NominalScanner> scanners)
+    : params_{params}, nominal_{std::move(scanners)} {
+  for (const NominalScanner& scanner : nominal_) {
+    followers_.push_back({ScanFollower{params.follower}, {}, vague_prior(scanner.base_from_sensor, params.fit), 0});
+    CalibratedScanner result;
+    result.estimate.state.base_from_sensor = scanner.base_from_sensor;
+    result.estimate.covariance = followers_.back().prior.sigma.cwiseAbs2().asDiagonal();
+    results_.push_back(std::move(result));
+    judge(results_.size() - 1);
+  }
+}
+
+void MountCalibrator::move(Time stamp, const Pose2& odom_from_base) {
+  const auto reading = unbroken_.add(stamp, odom_from_base);
+  if (reading.jumped)
+    for (Follower& follower : followers_) follower.sweeps.forget();
+  if (!odometry_.empty()) {
+    const Pose2 moved = inverse(odometry_.latest()) * reading.odom_from_base;
+    way_ += norm(moved.position());
+    for (Follower& follower : followers_) {
+      follower.rest_way -= norm(moved.position());
+      follower.rest_turn -= std::abs(moved.theta.radians());
+    }
+  }
+  odometry_.add(stamp, reading.odom_from_base);
+}
+
+void MountCalibrator::see(std::size_t scanner, Time stamp, const sensor_models::LaserReading& reading) {
+  if (!rests(followers_[scanner])) followers_[scanner].sweeps.keep(stamp, reading);
+}
+
+void MountCalibrator::rest(Follower& follower) const {
+  follower.sweeps.forget();
+  follower.rest_way = params_.rest_way;
+  follower.rest_turn = params_.rest_turn * kDegree;
+}
+
+void MountCalibrator::remember(std::size_t scanner, const MountEstimate& estimate, std::size_t pairs) {
+  Follower& follower = followers_[scanner];
+  follower.prior.state = estimate.state;
+  for (int i = 0; i < kMountUnknowns; ++i) follower.prior.sigma[i] = std::sqrt(estimate.covariance(i, i));
+  follower.remembered = pairs;
+  fit(scanner);
+}
+
+bool MountCalibrator::work() {
+  bool is_new = false;
+  for (std::size_t i = 0; i < followers_.size(); ++i) {
+    Follower& follower = followers_[i];
+    const double way = results_[i].is_known ? params_.follower.way : params_.follower.first_way;
+    const auto pairs = follower.sweeps.follow(odometry_, results_[i].estimate.state.base_from_sensor, way);
+    for (const MotionPair& pair : pairs) follower.pairs.push_back(pair);
+    while (follower.pairs.size() > static_cast<std::size_t>(params_.pairs)) follower.pairs.pop_front();
+    if (pairs.empty()) continue;
+    follower.unfitted += pairs.size();
+    if (results_[i].is_settled) rest(follower);
+    if (follower.unfitted < (results_[i].is_settled ? kFitEvery : 1)) continue;
+    follower.unfitted = 0;
+    fit(i);
+    is_new = true;
+  }
+  return is_new;
+}
+
+void MountCalibrator::forget_old(Follower& follower, const MountState& state) const {
+  if (follower.pairs.size() + follower.remembered < 2 * kNewest || follower.pairs.size() < kNewest) return;
+  double strange = 0.0;
+  for (std::size_t i = follower.pairs.size() - kNewest; i < follower.pairs.size(); ++i)
+    strange += std::min(9.0, residual_of(follower.pairs[i], state, params_.fit));
+  if (strange < kStrange * static_cast<double>(kNewest)) return;
+  const std::vector<MotionPair> newest(follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest),
+                                       follower.pairs.end());
+  const MountPrior vague = vague_prior(state.base_from_sensor, params_.fit);
+  if (fit_mount(newest, vague, params_.fit).misfit > kMuchBetter * strange / static_cast<double>(kNewest)) return;
+  // Somebody has knocked against it, or the robot was mended.
+  follower.pairs.erase(follower.pairs.begin(), follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest));
+  follower.remembered = 0;
+}
+
+void MountCalibrator::fit(std::size_t scanner) {
+  Follower& follower = followers_[scanner];
+  const std::size_t before = follower.pairs.size() + follower.remembered;
+  forget_old(follower, results_[scanner].estimate.state);
+  if (follower.pairs.size() + follower.remembered < before)
+    follower.prior = vague_prior(nominal_[scanner].base_from_sensor, params_.fit);
+  const std::vector<MotionPair> pairs(follower.pairs.begin(), follower.pairs.end());
+  results_[scanner].estimate = fit_mount(pairs, follower.prior, params_.fit);
+  results_[scanner].pairs = pairs.size() + follower.remembered;
+  judge(scanner);
+}
+
+void MountCalibrator::judge(std::size_t scanner) {
+  CalibratedScanner& result = results_[scanner];
+  const MountEstimate& estimate = result.estimate;
+  const Pose2& nominal = nominal_[scanner].base_from_sensor;
+  const double heading = (estimate.state.base_from_sensor.theta - nominal.theta).radians();
+  const double x = estimate.state.base_from_sensor.x - nominal.x;
+  const double y = estimate.state.base_from_sensor.y - nominal.y;
+  const bool has_pairs = result.pairs >= static_cast<std::size_t>(params_.fewest_pairs);
+  // What was corrected stays so until it is clearly none any more.
+  const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
+    const double least = is_so ? kHysteresis * limit : limit;
+    return has_pairs && is_beyond(value, sigma, least, params_.sigmas);
+  };
+  const bool is_turned = contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree,
+                                     result.base_from_sensor.theta.radians() != nominal.theta.radians());
+  const bool is_displaced_before =
+      result.is_contradicted && (result.base_from_sensor.x != nominal.x || result.base_from_sensor.y != nominal.y);
+  const bool is_displaced =
+      contradicts(std::hypot(x, y), estimate.sigma_position(), params_.named_position, is_displaced_before);
+  const bool is_late =
+      contradicts(estimate.state.delay, estimate.sigma(kMountDelay), params_.named_delay, result.delay != 0.0);
+  say(result, {is_turned, is_displaced, is_late}, nominal_[scanner]);
+  result.is_contradicted = is_turned || is_displaced || is_late;
+  result.base_from_sensor = nominal;
+  result.delay = 0.0;
+  if (params_.corrects && is_turned) result.base_from_sensor.theta = estimate.state.base_from_sensor.theta;
+  if (params_.corrects && is_displaced) {
+    result.base_from_sensor.x = estimate.state.base_from_sensor.x;
+    result.base_from_sensor.y = estimate.state.base_from_sensor.y;
+  }
+  if (params_.corrects && is_late) result.delay = estimate.state.delay;
+  result.is_known = has_pairs && estimate.sigma(kMountHeading) <= params_.known_heading * kDegree &&
+                    estimate.sigma_position() <= params_.known_position;
+  result.is_settled = result.is_known && estimate.sigma(kMountHeading) <= params_.settled_heading * kDegree &&
+                      estimate.sigma_position() <= params_.settled_position;
+  result.doubt_heading = std::min(params_.doubt_heading * kDegree, estimate.sigma(kMountHeading));
+  result.doubt_position = std::min(params_.doubt_position, estimate.sigma_position());
+}
+
+CalibratedBase MountCalibrator::base() const {
+  CalibratedBase base;
+  double way = 0.0;
+  double turn = 0.0;
+  double way_weight = 0.0;
+  double turn_weight = 0.0;
+  bool has_pairs = false;
+  for (const CalibratedScanner& scanner : results_) {
+    const double w = 1.0 / scanner.estimate.covariance(kWayScale, kWayScale);
+    const double t = 1.0 / scanner.estimate.covariance(kTurnScale, kTurnScale);
+    way += w * scanner.estimate.state.way_scale;
+    turn += t * scanner.estimate.state.turn_scale;
+    way_weight += w;
+    turn_weight += t;
+    has_pairs = has_pairs || scanner.pairs >= static_cast<std::size_t>(params_.fewest_pairs);
+  }
+  if (results_.empty()) return base;
+  base.way_scale = way / way_weight;
+  base.turn_scale = turn / turn_weight;
+  base.way_sigma = 1.0 / std::sqrt(way_weight);
+  base.turn_sigma = 1.0 / std::sqrt(turn_weight);
+  if (has_pairs && is_beyond(base.way_scale - 1.0, base.way_sigma, params_.named_scale, params_.sigmas))
+    base.finding += text(" and each metre of odometry is %.3f ± %.3f m", base.way_scale, base.way_sigma);
+  if (has_pairs && is_beyond(base.turn_scale - 1.0, base.turn_sigma, params_.named_scale, params_.sigmas))
+    base.finding += text(" and each degree that it turns is %.3f ± %.3f", base.turn_scale, base.turn_sigma);
+  if (!base.finding.empty()) base.finding = "base: " + base.finding.substr(kAnd);
+  return base;
+}
+
+bool MountCalibrator::is_known() const {
+  return std::all_of(results_.begin(), results_.end(), [](const auto& scanner) { return scanner.is_known; });
+}
+
+std::string MountCalibrator::finding() const {
+  std::string all;
+  const auto add = [&all](const std::string& finding) {
+    if (!finding.empty()) all += (all.empty() ? "" : "; ") + finding;
+  };
+  for (const CalibratedScanner& scanner : results_) add(scanner.finding);
+  add(base().finding);
+  return all;
+}
+
+}  // namespace docent::mapping

@@ -1,0 +1,139 @@
+#include "docent/mapping/mount_calibration/mount_calibrator.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/mapping/mount_calibration/testing.h"
+
+namespace docent::mapping::mount_calibrator_test {
+namespace {
+
+struct Case {
+  Pose2 truth;
+  double late = 0.0;
+  testing::OdometryErrors odometry{};
+  double way = 20.0;
+  double field = std::numbers::pi;
+  std::uint64_t seed = 1;
+};
+
+MountCalibrator driven(const Case& one, const Pose2& nominal, bool has_people = false) {
+  MountCalibrator calibrator{{}, {{"front", nominal}}};
+  testing::TestDrive drive{one.truth, one.late, one.odometry, one.seed};
+  drive.field = one.field;
+  if (has_people)  // they walk along beside the robot and about in the hall
+    drive.people = [](double t) {
+      std::vector<Point2> people;
+      for (int i = 0; i < 12; ++i)
+        people.push_back({6.0 + 5.0 * std::sin(0.13 * t + 0.9 * i), 4.5 + 3.8 * std::cos(0.17 * t + 1.7 * i)});
+      return people;
+    };
+  drive.go(
+      one.way, [&](Time stamp, const Pose2& odom) { calibrator.move(stamp, odom); },
+      [&](Time stamp, const auto& reading) {
+        calibrator.see(0, stamp, reading);
+        calibrator.work();
+      });
+  return calibrator;
+}
+
+void expect_near(const MountCalibrator& calibrator, const Pose2& truth, double metres, double degrees) {
+  const CalibratedScanner& scanner = calibrator.scanners().front();
+  const Pose2& found = scanner.estimate.state.base_from_sensor;
+  EXPECT_TRUE(scanner.is_known);
+  EXPECT_LT(distance(found.position(), truth.position()), metres) << found.x << ", " << found.y;
+  EXPECT_LT(std::abs((found.theta - truth.theta).degrees()), degrees) << found.theta.degrees();
+}
+
+TEST(MountCalibrator, FindsNothingWhereThereIsNothing) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Pose2 mount{0.1, 0.0, {}};
+    const auto calibrator = driven({.truth = mount, .seed = seed}, mount);
+    expect_near(calibrator, mount, 0.02, 0.7);
+    EXPECT_EQ(calibrator.finding(), "");
+    EXPECT_EQ(calibrator.scanners().front().delay, 0.0);
+    EXPECT_EQ(calibrator.scanners().front().base_from_sensor.x, mount.x) << "as robot.yaml has it";
+  }
+}
+
+TEST(MountCalibrator, FindsTurnedScanners) {
+  for (const double degrees : {3.0, -10.0, 45.0, 180.0}) {
+    const Pose2 truth{0.1, 0.05, Angle::degrees(degrees)};
+    const auto calibrator = driven({.truth = truth}, {0.1, 0.05, {}});
+    expect_near(calibrator, truth, 0.03, 1.0);
+    EXPECT_NE(calibrator.finding().find("scanner front: turned by"), std::string::npos) << calibrator.finding();
+    EXPECT_LT(std::abs((calibrator.scanners().front().base_from_sensor.theta - truth.theta).degrees()), 1.0);
+  }
+}
+
+TEST(MountCalibrator, FindsDisplacedScannersAndAmongPeople) {
+  for (const Point2 off : {Point2{0.05, 0.0}, Point2{0.0, -0.1}, Point2{-0.2, 0.2}}) {
+    const Pose2 nominal{0.1, 0.0, {}};
+    const Pose2 truth{nominal.x + off.x, nominal.y + off.y, {}};
+    const auto calibrator = driven({.truth = truth}, nominal, true);
+    expect_near(calibrator, truth, 0.03, 1.0);
+    EXPECT_NE(calibrator.finding().find("displaced"), std::string::npos) << calibrator.finding();
+  }
+}
+
+TEST(MountCalibrator, FindsLateStampsOfAnyField) {
+  for (const double late : {0.06, 0.15, -0.1}) {
+    const auto calibrator = driven({.truth = {}, .late = late, .field = 1.5 * std::numbers::pi}, {});
+    EXPECT_NEAR(calibrator.scanners().front().estimate.state.delay, late, 0.02);
+    EXPECT_NEAR(calibrator.scanners().front().delay, late, 0.02);
+    expect_near(calibrator, {}, 0.03, 1.0);
+  }
+}
+
+TEST(MountCalibrator, TellsScalesOfOdometryFromMounts) {
+  const auto calibrator = driven({.truth = {}, .odometry = {.way = 1.08, .turn = 0.93}, .way = 40.0}, {});
+  expect_near(calibrator, {}, 0.03, 1.0);
+  const CalibratedBase base = calibrator.base();
+  EXPECT_NEAR(base.way_scale, 1.0 / 1.08, 0.015);
+  EXPECT_NEAR(base.turn_scale, 1.0 / 0.93, 0.015);
+  EXPECT_NE(base.finding.find("each metre"), std::string::npos) << base.finding;
+}
+
+TEST(MountCalibrator, DoesNotKnowBeforeItHasDriven) {
+  MountCalibrator calibrator{{}, {{"front", {}}}};
+  EXPECT_FALSE(calibrator.is_known());
+  EXPECT_GT(calibrator.scanners().front().doubt_heading, 0.1);
+  EXPECT_FALSE(calibrator.work());
+  const auto a_metre = driven({.truth = {}, .way = 0.4}, {});
+  EXPECT_FALSE(a_metre.is_known());
+}
+
+TEST(MountCalibrator, NoticesAScannerThatIsKnockedAskew) {
+  const Pose2 after{0.1, 0.0, Angle::degrees(12.0)};
+  auto calibrator = driven({.truth = {0.1, 0.0, {}}, .way = 40.0}, {0.1, 0.0, {}});
+  EXPECT_EQ(calibrator.finding(), "");
+  testing::TestDrive drive{after, 0.0, {}, 7};
+  drive.go(
+      90.0, [&](Time stamp, const Pose2& odom) { calibrator.move(stamp + seconds(1000.0), odom); },
+      [&](Time stamp, const auto& reading) {
+        calibrator.see(0, stamp + seconds(1000.0), reading);
+        calibrator.work();
+      });
+  expect_near(calibrator, after, 0.03, 1.5);
+  EXPECT_NE(calibrator.finding(), "");
+}
+
+TEST(MountCalibrator, RemembersUntilTheScannersSayOtherwise) {
+  const Pose2 truth{0.1, 0.0, Angle::degrees(8.0)};
+  const auto first = driven({.truth = truth}, {0.1, 0.0, {}});
+  MountCalibrator second{{}, {{"front", {0.1, 0.0, {}}}}};
+  second.remember(0, first.scanners().front().estimate, first.scanners().front().pairs);
+  EXPECT_TRUE(second.is_known());
+  expect_near(second, truth, 0.03, 1.0);
+  EXPECT_NE(second.finding(), "");
+}
+
+TEST(MountCalibrator, IsTheSameEachTime) {
+  const Case one{.truth = {0.1, 0.0, Angle::degrees(5.0)}};
+  const auto a = driven(one, {}).scanners().front().estimate.state;
+  const auto b = driven(one, {}).scanners().front().estimate.state;
+  EXPECT_EQ(a.base_from_sensor.x, b.base_from_sensor.x);
+  EXPECT_EQ(a.delay, b.delay);
+}
+
+}  // namespace
+}  // namespace docent::mapping::mount_calibrator_test

@@ -1,0 +1,180 @@
+#include "docent/mapping/mount_calibration/mount_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace docent::mapping {
+namespace {
+
+constexpr double kMostCounted = 9.0;  // squared sigmas of a pair, in the mean
+constexpr int kHeadings = 12;         // from which the search may begin
+
+MountState moved(MountState state, const MountVector& step) {
+  state.base_from_sensor.x += step[kMountX];
+  state.base_from_sensor.y += step[kMountY];
+  state.base_from_sensor.theta = state.base_from_sensor.theta + Angle::radians(step[kMountHeading]);
+  state.delay = std::clamp(state.delay + step[kMountDelay], -ShiftedMotion::kMost, ShiftedMotion::kMost);
+  state.way_scale = std::clamp(state.way_scale + step[kWayScale], 0.5, 2.0);
+  state.turn_scale = std::clamp(state.turn_scale + step[kTurnScale], 0.5, 2.0);
+  state.veer += step[kVeer];
+  return state;
+}
+
+MountVector difference(const MountState& a, const MountState& b) {
+  MountVector d;
+  d[kMountX] = a.base_from_sensor.x - b.base_from_sensor.x;
+  d[kMountY] = a.base_from_sensor.y - b.base_from_sensor.y;
+  d[kMountHeading] = (a.base_from_sensor.theta - b.base_from_sensor.theta).radians();
+  d[kMountDelay] = a.delay - b.delay;
+  d[kWayScale] = a.way_scale - b.way_scale;
+  d[kTurnScale] = a.turn_scale - b.turn_scale;
+  d[kVeer] = a.veer - b.veer;
+  return d;
+}
+
+/// What scans see of the base's motion against what they should see, in the frame of the later sweep.
+Eigen::Vector3d residual(const MotionPair& pair, const MountState& state) {
+  Pose2 base = pair.base.at(state.delay);
+  const double told = base.theta.radians();
+  const double turn = state.turn_scale * told + state.veer * base.x;
+  // Whoever turned more than odometry says did so all along the way: by half of it in the mean.
+  const Pose2 half{0.0, 0.0, Angle::radians(0.5 * (pair.sensor_then_from_now.theta.radians() - told))};
+  const Point2 at = half * (state.way_scale * base.position());
+  base = {at.x, at.y, Angle::radians(turn)};
+  const Pose2 expected = inverse(state.base_from_sensor) * base * state.base_from_sensor;
+  const Pose2 off = inverse(pair.sensor_then_from_now) * expected;
+  return {off.x, off.y, off.theta.radians()};
+}
+
+Eigen::Matrix3d information_of(const MotionPair& pair, Angle heading, const MountFitParams& params) {
+  const Pose2 base = pair.base.at(0.0);
+  const double metres = norm(base.position());
+  const double least = params.least_noise * params.least_noise;
+  const double along = params.way_noise * params.way_noise * metres + least;
+  const double aside = params.aside_noise * params.aside_noise * metres + least;
+  const double c = std::cos(heading.radians());
+  const double s = std::sin(heading.radians());
+  const double turn = params.turn_noise * params.turn_noise * std::abs(base.theta.radians()) +
+                      params.least_turn_noise * params.least_turn_noise;
+  Eigen::Matrix3d covariance = pair.information.inverse();
+  // The base drives along its own x axis, which lies at -heading in the sensor's frame.
+  covariance(0, 0) += c * c * along + s * s * aside;
+  covariance(1, 1) += s * s * along + c * c * aside;
+  covariance(0, 1) += c * s * (aside - along);
+  covariance(1, 0) += c * s * (aside - along);
+  covariance(2, 2) += turn;
+  return covariance.inverse();
+}
+
+struct WeighedPair {
+  const MotionPair* pair;
+  Eigen::Matrix3d information;
+};
+
+double robust_cost(std::span<const WeighedPair> pairs, const MountState& state, double outlier) {
+  const double square = outlier * outlier;
+  double cost = 0.0;
+  for (const WeighedPair& weighed : pairs) {
+    const Eigen::Vector3d r = residual(*weighed.pair, state);
+    cost += square * std::log1p(r.dot(weighed.information * r) / square);
+  }
+  return cost;
+}
+
+struct NormalEquations {
+  MountMatrix information;
+  MountVector pull;
+};
+
+NormalEquations linearised(std::span<const WeighedPair> pairs, const MountState& state, const MountPrior& prior,
+                           double outlier) {
+  constexpr std::array<double, kMountUnknowns> kSteps{1e-4, 1e-4, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4};
+  NormalEquations sums;
+  const MountVector weights = prior.sigma.cwiseAbs2().cwiseInverse();
+  sums.information = weights.asDiagonal();
+  sums.pull = weights.cwiseProduct(difference(state, prior.state));
+  for (const WeighedPair& weighed : pairs) {
+    const Eigen::Vector3d r = residual(*weighed.pair, state);
+    Eigen::Matrix<double, 3, kMountUnknowns> rows;
+    for (int i = 0; i < kMountUnknowns; ++i) {
+      MountVector step = MountVector::Zero();
+      step[i] = kSteps[static_cast<std::size_t>(i)];
+      rows.col(i) = (residual(*weighed.pair, moved(state, step)) - r) / step[i];
+    }
+    const double weight = 1.0 / (1.0 + r.dot(weighed.information * r) / (outlier * outlier));
+    sums.information += weight * rows.transpose() * weighed.information * rows;
+    sums.pull += weight * rows.transpose() * weighed.information * r;
+  }
+  return sums;
+}
+
+/// The heading from which the search ends best: with a scanner that looks elsewhere the nearest one may be none.
+MountState first_state(std::span<const WeighedPair> pairs, const MountPrior& prior, double outlier) {
+  MountState best = prior.state;
+  double least = robust_cost(pairs, best, outlier);
+  for (int i = 1; i < kHeadings; ++i) {
+    MountState state = prior.state;
+    const Angle turned = Angle::radians(2.0 * std::numbers::pi * i / kHeadings);
+    state.base_from_sensor.theta = state.base_from_sensor.theta + turned;
+    const double unlikely = turned.radians() / prior.sigma[kMountHeading];
+    const double cost = robust_cost(pairs, state, outlier) + unlikely * unlikely;
+    if (cost < least) {
+      least = cost;
+      best = state;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+MountPrior vague_prior(const Pose2& base_from_sensor, const MountFitParams& params) {
+  MountPrior prior{{.base_from_sensor = base_from_sensor}, {}};
+  prior.sigma[kMountX] = prior.sigma[kMountY] = params.position_prior;
+  prior.sigma[kMountHeading] = params.heading_prior;
+  prior.sigma[kMountDelay] = params.delay_prior;
+  prior.sigma[kWayScale] = params.way_prior;
+  prior.sigma[kTurnScale] = params.turn_prior;
+  prior.sigma[kVeer] = params.veer_prior;
+  return prior;
+}
+
+double MountEstimate::sigma(MountUnknown unknown) const { return std::sqrt(covariance(unknown, unknown)); }
+
+double MountEstimate::sigma_position() const { return std::max(sigma(kMountX), sigma(kMountY)); }
+
+double residual_of(const MotionPair& pair, const MountState& state, const MountFitParams& params) {
+  const Eigen::Vector3d r = residual(pair, state);
+  return r.dot(information_of(pair, state.base_from_sensor.theta, params) * r);
+}
+
+MountEstimate fit_mount(std::span<const MotionPair> pairs, const MountPrior& prior, const MountFitParams& params) {
+  std::vector<WeighedPair> weighed;
+  for (const MotionPair& pair : pairs)
+    weighed.push_back({&pair, information_of(pair, prior.state.base_from_sensor.theta, params)});
+  MountEstimate estimate{.state = first_state(weighed, prior, params.outlier)};
+  for (int i = 0; i < params.iterations; ++i) {
+    if (i <= 1)  // how odometry errs lies along the base's way, as far as that is known by now
+      for (WeighedPair& one : weighed)
+        one.information = information_of(*one.pair, estimate.state.base_from_sensor.theta, params);
+    const NormalEquations sums = linearised(weighed, estimate.state, prior, params.outlier);
+    const MountVector step = -sums.information.ldlt().solve(sums.pull);
+    estimate.state = moved(estimate.state, step);
+    if (step.cwiseAbs().maxCoeff() < 1e-6) break;
+  }
+  const NormalEquations sums = linearised(weighed, estimate.state, prior, params.outlier);
+  for (const WeighedPair& one : weighed) {
+    const Eigen::Vector3d r = residual(*one.pair, estimate.state);
+    estimate.misfit += std::min(kMostCounted, r.dot(one.information * r));
+  }
+  if (!weighed.empty()) estimate.misfit /= static_cast<double>(weighed.size());
+  const double worse = params.caution * std::max(1.0, std::sqrt(estimate.misfit / 3.0));
+  estimate.covariance = worse * worse * sums.information.inverse();
+  return estimate;
+}
+
+}  // namespace docent::mapping

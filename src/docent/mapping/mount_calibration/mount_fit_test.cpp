@@ -1,0 +1,60 @@
+#include "docent/mapping/mount_calibration/mount_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/base/random.h"
+
+namespace docent::mapping::mount_fit_test {
+namespace {
+
+/// Pairs as a sensor with this mount would see them, without noise.
+std::vector<MotionPair> pairs_of(const Pose2& mount, std::size_t count, Rng& rng) {
+  std::vector<MotionPair> pairs;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turn = i % 3 == 0 ? rng.uniform(-0.5, 0.5) : 0.0;
+    const Pose2 base{rng.uniform(0.2, 0.6), 0.0, Angle::radians(turn)};
+    pairs.push_back({inverse(mount) * base * mount, 1e5 * Eigen::Matrix3d::Identity(), ShiftedMotion::constant(base)});
+  }
+  return pairs;
+}
+
+TEST(MountFit, FindsTheMountOfPairsWithoutNoise) {
+  Rng rng{3};
+  for (int i = 0; i < 10; ++i) {
+    const Pose2 mount{rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), Angle::radians(rng.uniform(-3.0, 3.0))};
+    const auto estimate = fit_mount(pairs_of(mount, 40, rng), vague_prior({}, {}), {});
+    EXPECT_NEAR(estimate.state.base_from_sensor.x, mount.x, 0.01);
+    EXPECT_NEAR(estimate.state.base_from_sensor.y, mount.y, 0.01);
+    EXPECT_NEAR((estimate.state.base_from_sensor.theta - mount.theta).radians(), 0.0, 0.005);
+    EXPECT_LT(estimate.misfit, 0.5);
+  }
+}
+
+TEST(MountFit, IsNotMovedByAThirdOfNonsense) {
+  Rng rng{5};
+  const Pose2 mount{0.1, -0.05, Angle::degrees(4.0)};
+  auto pairs = pairs_of(mount, 60, rng);
+  for (std::size_t i = 0; i < pairs.size(); i += 3) pairs[i].sensor_then_from_now.y += 0.3;
+  const auto estimate = fit_mount(pairs, vague_prior({}, {}), {});
+  EXPECT_NEAR((estimate.state.base_from_sensor.theta - mount.theta).degrees(), 0.0, 1.0);
+}
+
+TEST(MountFit, StraightWaysSayNothingOfThePlace) {
+  std::vector<MotionPair> pairs;
+  for (int i = 0; i < 30; ++i)
+    pairs.push_back({{0.5, 0.0, {}}, 1e5 * Eigen::Matrix3d::Identity(), ShiftedMotion::constant({0.5, 0.0, {}})});
+  const MountFitParams params;
+  const auto estimate = fit_mount(pairs, vague_prior({}, params), params);
+  EXPECT_LT(estimate.sigma(kMountHeading), 0.02);
+  EXPECT_GT(estimate.sigma_position(), 0.5 * params.position_prior);
+}
+
+TEST(MountFit, OfNoPairsIsThePrior) {
+  const MountFitParams params;
+  const auto estimate = fit_mount({}, vague_prior({0.2, 0.1, {}}, params), params);
+  EXPECT_DOUBLE_EQ(estimate.state.base_from_sensor.x, 0.2);
+  EXPECT_NEAR(estimate.sigma(kMountX), params.caution * params.position_prior, 1e-9);
+}
+
+}  // namespace
+}  // namespace docent::mapping::mount_fit_test
