@@ -24,8 +24,7 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
-        doubt_sigmas_{params.doubt_sigmas},
-        keep_{context.config.body().radius + kBeside},
+        doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
@@ -37,7 +36,7 @@ class HazardsModule final : public Module {
     bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration,
                                              [this](const auto& calibration) { doubt(calibration); });
     bus_.subscribe<docent_msgs::Exploration>(topics::kExploration,
-                                             [this](const auto& survey) { mark_margin_ = survey.mark_margin; });
+                                             [this](const auto& survey) { doubt_.marks = survey.mark_margin; });
     // Says that it lives while the belief rests.
     bus_.every(seconds(0.25), [this] {
       if (last_ && bus_.now() - published_ > seconds(0.2) && bus_.now() - received_ < seconds(kBeliefLife)) publish();
@@ -52,7 +51,7 @@ class HazardsModule final : public Module {
   }
 
  private:
-  static constexpr double kBeside = 0.1;  // [m]: doubt alone never tells a robot that it touches something
+  static constexpr double kBeside = 0.1;      // [m]: doubt alone never tells a robot that it touches something
   static constexpr double kBeliefLife = 3.0;  // [s]
   static constexpr Duration kMovingPeriod = std::chrono::milliseconds{80};
   /// So long a belief is carried on by odometry; then its own stamp stands, and avoidance slows down by its age.
@@ -87,11 +86,11 @@ class HazardsModule final : public Module {
 
   /// The worst of the scanners: nobody knows to which of them the belief owes its pose.
   void doubt(const docent_msgs::Calibration& calibration) {
-    doubt_ = {};
+    doubt_.mounts = {};
     for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
       if (mount.is_known) continue;
-      doubt_.heading = std::max(doubt_.heading, doubt_sigmas_ * mount.doubt_heading);
-      doubt_.position = std::max(doubt_.position, doubt_sigmas_ * mount.doubt_position);
+      doubt_.mounts.heading = std::max(doubt_.mounts.heading, doubt_.sigmas * mount.doubt_heading);
+      doubt_.mounts.position = std::max(doubt_.mounts.position, doubt_.sigmas * mount.doubt_position);
     }
   }
 
@@ -121,8 +120,9 @@ class HazardsModule final : public Module {
       squares_.clear();
     }
     auto of_border = border_.measure(poses_, squares_);
-    collision_avoidance::lower_by_doubt(of_hazards.ranges, {doubt_.heading, doubt_.position + mark_margin_, keep_});
-    collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.heading, 0.0});
+    collision_avoidance::lower_by_doubt(of_hazards.ranges,
+                                        {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
+    collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
     possible_mass_ = of_hazards.possible_mass;
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
@@ -154,11 +154,14 @@ class HazardsModule final : public Module {
   transport::Bus& bus_;
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
-  double doubt_sigmas_;
-  collision_avoidance::MountDoubt doubt_;  ///< in which the belief is not
-  double mark_margin_ = 0.0;               ///< [m] that the hazards themselves may lie off
-  double keep_;                            ///< [m], see MountDoubt
-  bool best_pose_only_;                    ///< crippled, see VirtualMeasurementParams
+  /// What the belief does not tell.
+  struct {
+    double sigmas;
+    double keep;                                  ///< [m], see MountDoubt
+    collision_avoidance::MountDoubt mounts = {};  ///< of the scanners
+    double marks = 0.0;                           ///< [m] that the hazards themselves may lie off
+  } doubt_;
+  bool best_pose_only_;  ///< crippled, see VirtualMeasurementParams
   transport::Publisher<sensor_msgs::LaserScan> scan_;
   std::vector<collision_avoidance::WeightedPose> poses_;
   std::vector<collision_avoidance::WeightedSquare> squares_;
