@@ -7,8 +7,8 @@
 
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
-#include "docent/recording/log_scanners.h"
 #include "docent/motion_models/unbroken_odometry.h"
+#include "docent/recording/log_scanners.h"
 
 namespace docent::recording {
 namespace {

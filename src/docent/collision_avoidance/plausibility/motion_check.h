@@ -11,23 +11,23 @@ namespace docent::collision_avoidance {
 
 struct MotionCheckParams {
   RangeLawParams law{.noise = 0.06, .per_metre = 0.012};  ///< people are left to the shares below
-  double least_way = 0.12;      ///< [m] between two sweeps that are compared: twice as much differs by more than noise
-  double least_turn = 0.25;     ///< [rad] or this
-  double proves_way = 0.3;      ///< [m] after which a sweep that is as expected bears the scanner out
-  double proves_turn = 0.35;    ///< [rad] or after this
-  double farthest = 1.0;        ///< [m] then other places are in view,
-  double longest = 4.0;         ///< [s] or other people
-  double between = 0.09;        ///< [s] between comparisons
-  double agrees = 0.5;          ///< of the samples as odometry has it: in order, people and all
-  double surely_agrees = 0.7;   ///< likewise: nothing else need be tried
-  double explains = 0.6;        ///< of the samples must follow another explanation,
-  double better = 0.25;         ///< and so many more than odometry's
-  int sure = 3;                 ///< comparisons in succession
-  double differs_way = 0.08;    ///< [m] between two explanations, else they are one
-  double differs_turn = 0.06;   ///< [rad] likewise
-  double late = 0.5;            ///< [s] later sweeps must look otherwise before one that was late is believed,
-  double otherwise = 0.15;      ///< by so many of the samples
-  double unproven_way = 1.0;    ///< [m] driven with too few samples to tell anything
+  double least_way = 0.12;     ///< [m] between two sweeps that are compared: twice as much differs by more than noise
+  double least_turn = 0.25;    ///< [rad] or this
+  double proves_way = 0.3;     ///< [m] after which a sweep that is as expected bears the scanner out
+  double proves_turn = 0.35;   ///< [rad] or after this
+  double farthest = 1.0;       ///< [m] then other places are in view,
+  double longest = 4.0;        ///< [s] or other people
+  double between = 0.09;       ///< [s] between comparisons
+  double agrees = 0.5;         ///< of the samples as odometry has it: in order, people and all
+  double surely_agrees = 0.7;  ///< likewise: nothing else need be tried
+  double explains = 0.6;       ///< of the samples must follow another explanation,
+  double better = 0.25;        ///< and so many more than odometry's
+  int sure = 3;                ///< comparisons in succession
+  double differs_way = 0.08;   ///< [m] between two explanations, else they are one
+  double differs_turn = 0.06;  ///< [rad] likewise
+  double late = 0.5;           ///< [s] later sweeps must look otherwise before one that was late is believed,
+  double otherwise = 0.15;     ///< by so many of the samples
+  double unproven_way = 1.0;   ///< [m] driven with too few samples to tell anything
 };
 
 /// Whether what a scanner sees changes as odometry says that it moves. Two sweeps, a quarter of a metre or more apart,
