@@ -7,10 +7,10 @@
 
 #include "docent/base/random.h"
 
-namespace docent::own_body_test {
+namespace docent {
 namespace {
 
-constexpr double kStep = std::numbers::pi / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// 360 beams; a post 0.15 m before the scanner's beams 90 to 95, and a wall `wall` away.
 std::vector<float> sweep_of(Rng& rng, double wall) {
@@ -25,12 +25,12 @@ TEST(OwnBody, LearnsAPostAndTakesItOut) {
   OwnBody body{Pose2{0.05, 0.0, {}}, 0.265, {}};
   for (int sweep = 0; sweep < 10; ++sweep) {
     auto ranges = sweep_of(rng, 2.0);
-    body.take_out(ranges, -std::numbers::pi, kStep, 0.05);
+    body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
     EXPECT_FALSE(std::isnan(ranges[92])) << "not yet";
   }
   for (int sweep = 0; sweep < 50; ++sweep) {
     auto ranges = sweep_of(rng, 1.0 + 0.05 * sweep);
-    body.take_out(ranges, -std::numbers::pi, kStep, 0.05);
+    body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
     for (std::size_t beam = 0; beam < 360; ++beam) EXPECT_EQ(std::isnan(ranges[beam]), beam >= 90 && beam < 96) << beam;
   }
   EXPECT_FALSE(body.is_too_much());
@@ -43,11 +43,11 @@ TEST(OwnBody, WhatStandsBesideTheRobotIsNone) {
   for (int sweep = 0; sweep < 30; ++sweep) {
     std::vector<float> ranges;  // a wall that the robot touches when it begins
     for (int beam = 0; beam < 360; ++beam) {
-      const double across = std::abs(beam - 180) < 60 ? 0.27 / std::cos(kStep * (beam - 180)) : 3.0;
+      const double across = std::abs(beam - 180) < 60 ? 0.27 / std::cos(kDegree * (beam - 180)) : 3.0;
       ranges.push_back(static_cast<float>(across + rng.normal(0.0, 0.01)));
     }
     const auto before = ranges;
-    body.take_out(ranges, -std::numbers::pi, kStep, 0.05);
+    body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
     EXPECT_EQ(ranges, before);
   }
   EXPECT_EQ(body.where(), "");
@@ -58,11 +58,11 @@ TEST(OwnBody, WhatComesLaterIsNone) {
   OwnBody body{Pose2{}, 0.265, {}};
   for (int sweep = 0; sweep < 10; ++sweep) {
     auto ranges = sweep_of(rng, 2.0);
-    body.take_out(ranges, -std::numbers::pi, kStep, 0.05);
+    body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
   }
   auto ranges = sweep_of(rng, 2.0);
   for (std::size_t beam = 200; beam < 220; ++beam) ranges[beam] = 0.2F;  // a hand
-  body.take_out(ranges, -std::numbers::pi, kStep, 0.05);
+  body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
   for (std::size_t beam = 200; beam < 220; ++beam) EXPECT_EQ(ranges[beam], 0.2F);
 }
 
@@ -74,7 +74,7 @@ TEST(OwnBody, ASlimBodyEndsAtItsOutline) {
     ranges.assign(360, 0.25F);
     for (std::size_t beam = 45; beam < 315; ++beam) ranges[beam] = beam < 225 && beam >= 135 ? 2.0F : 0.25F;
     for (std::size_t beam = 0; beam < 45; ++beam) ranges[beam] = ranges[beam + 315] = 2.0F;
-    body.take_out(ranges, 0.0, kStep, 0.05);
+    body.take_out(ranges, 0.0, kDegree, 0.05);
   }
   EXPECT_EQ(ranges[90], 0.25F);
   EXPECT_EQ(body.where(), "");
@@ -86,11 +86,11 @@ TEST(OwnBody, ACoveredScannerIsNoBody) {
   for (int sweep = 0; sweep < 20; ++sweep) {
     ranges.assign(360, 2.0F);
     for (std::size_t beam = 0; beam < 200; ++beam) ranges[beam] = 0.06F;
-    body.take_out(ranges, 0.0, kStep, 0.05);
+    body.take_out(ranges, 0.0, kDegree, 0.05);
   }
   EXPECT_EQ(ranges[100], 0.06F) << "an obstacle, as before";
   EXPECT_TRUE(body.is_too_much());
 }
 
 }  // namespace
-}  // namespace docent::own_body_test
+}  // namespace docent

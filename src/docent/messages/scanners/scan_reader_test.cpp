@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace docent::scan_reader_test {
+namespace docent {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -75,4 +75,4 @@ TEST(ScanReader, AnUprightScannerThatFailsNowAndThenIsReadAsItStands) {
 }
 
 }  // namespace
-}  // namespace docent::scan_reader_test
+}  // namespace docent

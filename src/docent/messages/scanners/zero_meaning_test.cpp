@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace docent::zero_meaning_test {
+namespace docent {
 namespace {
 
 constexpr double kStep = std::numbers::pi / 180.0;
@@ -91,4 +91,4 @@ TEST(ZeroMeaning, WhatComesTooNearHasNearNeighbours) {
 }
 
 }  // namespace
-}  // namespace docent::zero_meaning_test
+}  // namespace docent
