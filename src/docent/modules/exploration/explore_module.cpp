@@ -8,6 +8,7 @@
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/planning/survey/surveyor.h"
 
 namespace docent::modules {
@@ -73,8 +74,9 @@ class ExploreModule final : public Module {
     bus_.subscribe<docent_msgs::People>(topics::kPeopleInOdom, [this](const auto& people) { note(people); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { move(odometry); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan) { see(i, scan); });
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop,
-                                      [this](const auto& stop) { surveyor_.note_stop(stop.is_stopped); });
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this, view = StopView{}](const auto& stop) mutable {
+      surveyor_.note_stop(view.see(stop));
+    });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering,
                                           [this](const auto&) { surveyor_.note_steering(bus_.now()); });
     bus_.subscribe<docent_msgs::ExplorationOrder>(
