@@ -43,17 +43,24 @@ struct Steering {
   }
 };
 
-/// The stop button; latched.
+/// What one of its keepers knows of the stop button; latched, and repeated. Of several keepers the one with the greatest
+/// number is right; of equal numbers one that says stopped.
 struct Stop {
   static constexpr const char* kType = "docent_msgs/msg/Stop";
   std_msgs::Header header;
   bool is_stopped = false;
-  std::string by;  ///< the name of whoever pressed it last
+  std::string by;            ///< the name of whoever pressed or released it last
+  std::uint64_t number = 0;  ///< of all presses and releases; only grows
+  bool is_sure = false;      ///< the keeper has asked the others since its start
+  std::string keeper;        ///< the name of who says so
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
     v("is_stopped", m.is_stopped);
     v("by", m.by);
+    v("number", m.number);
+    v("is_sure", m.is_sure);
+    v("keeper", m.keeper);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace docent::telepresence {
@@ -132,7 +133,13 @@ Result<ClientMessage> parse_order(const Json& object, const std::string& type, s
   }
   if (type == "stop") {
     if (!need("stopped")) return fail("stop: stopped must be true or false");
-    return StopMessage{std::move(id), is_set(object, "stopped")};
+    StopMessage message{std::move(id), is_set(object, "stopped")};
+    const auto number = object.find("number");
+    if (message.stopped) return message;
+    if (number == object.end() || !number->is_number_unsigned() || *number > std::numeric_limits<int>::max())
+      return fail("stop: a release needs the number of its stop");
+    message.number = number->get<int>();
+    return message;
   }
   const auto mode = parse<OperatingMode>(text_of(object, "mode"));
   if (!mode) return fail("set_hours: no such mode");

@@ -139,15 +139,17 @@ struct SteerMessage {
     v("pressed", m.pressed), v("forward", m.forward), v("turn", m.turn);
   }
 };
-/// {"type":"stop","id":UUIDv7,"stopped":true}: the stop button; nobody needs the lease for it.
+/// {"type":"stop","id":UUIDv7,"stopped":true,"number":n}: the stop button; nobody needs the lease for it. A release
+/// names the stop that it is for, as `operation` shows it.
 struct StopMessage {
   static constexpr const char* kName = "StopMessage";
   static constexpr const char* kType = "stop";
   std::string id;
   bool stopped = false;
+  int number = 0;
   template <class Self, class V>
   static void visit(Self& m, V& v) {
-    v("id", m.id), v("stopped", m.stopped);
+    v("id", m.id), v("stopped", m.stopped), v("number", m.number);
   }
 };
 /// {"type":"set_hours","id":UUIDv7,"mode":"web"}: whose requests are taken from now on; hours: as the museum's hours

@@ -54,6 +54,7 @@ TEST(ClientMessage, ReadsWhatAnOperatorSays) {
   const auto of = [](const std::string& rest) { return parse_client_message(R"({"id":")" + kId + "\"," + rest); };
   EXPECT_TRUE(std::get<LeaseMessage>(*of(R"("type":"lease","wants":true})")).wants);
   EXPECT_TRUE(std::get<StopMessage>(*of(R"("type":"stop","stopped":true})")).stopped);
+  EXPECT_EQ(std::get<StopMessage>(*of(R"("type":"stop","stopped":false,"number":7})")).number, 7);
   EXPECT_EQ(std::get<SetHoursMessage>(*of(R"("type":"set_hours","mode":"web"})")).mode, OperatingMode::web);
   const auto steer = std::get<SteerMessage>(*of(R"("type":"steer","pressed":true,"forward":-0.5,"turn":1})"));
   EXPECT_TRUE(steer.pressed);
@@ -61,6 +62,8 @@ TEST(ClientMessage, ReadsWhatAnOperatorSays) {
   EXPECT_EQ(steer.turn, 1.0);
   for (const char* wrong :
        {R"("type":"lease"})", R"("type":"lease","wants":1})", R"("type":"stop","stopped":"yes"})",
+        R"("type":"stop","stopped":false})", R"("type":"stop","stopped":false,"number":-1})",
+        R"("type":"stop","stopped":false,"number":1e12})", R"("type":"stop","stopped":false,"number":99999999999})",
         R"("type":"set_hours","mode":"never"})", R"("type":"steer","pressed":true,"forward":1.1,"turn":0})",
         R"("type":"steer","pressed":true,"forward":1e999,"turn":0})", R"("type":"steer","pressed":true,"forward":0})"})
     EXPECT_FALSE(of(wrong)) << wrong;

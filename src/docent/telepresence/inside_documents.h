@@ -100,11 +100,13 @@ struct OperationMessage {
   std::string holder;       ///< of the lease to steer; empty: nobody
   bool is_pressed = false;  ///< they hold the dead man's switch down
   bool is_stopped = false;  ///< by the stop button
-  std::string stopped_by;   ///< whoever pressed it last
+  std::string stopped_by;   ///< whoever pressed or released it last
+  int stop_number = 0;      ///< of all presses and releases; a release names it
   std::string hours;        ///< what an operator has said of the hours last: open, web, closed, hours; empty: nothing
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("holder", d.holder), v("pressed", d.is_pressed), v("stopped", d.is_stopped), v("stopped_by", d.stopped_by);
+    v("stop_number", d.stop_number);
     v("hours", d.hours);
   }
 };

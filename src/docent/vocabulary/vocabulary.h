@@ -186,7 +186,9 @@ enum class ReasonWord {
   obstacle_near,
   stopped_by_hand,  ///< by an operator's stop button
   steered_by_hand,
-  no_lease,  ///< to steer, or no longer; about the name of whoever has it
+  no_lease,          ///< to steer, or no longer; about the name of whoever has it
+  stop_unconfirmed,  ///< the robot has not said in time that it holds the order; it is repeated for ever
+  another_stop,      ///< somebody has pressed again since: about their name; a release is for the stop it names
 };
 constexpr auto words_of(ReasonWord) {
   return std::array{"no_such_exhibit",
@@ -232,7 +234,9 @@ constexpr auto words_of(ReasonWord) {
                     "obstacle_near",
                     "stopped_by_hand",
                     "steered_by_hand",
-                    "no_lease"};
+                    "no_lease",
+                    "stop_unconfirmed",
+                    "another_stop"};
 }
 
 /// What is worth a line in the history (docs/terminology.md, Events).

@@ -43,7 +43,7 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(SpeechAct::complain);
   expect_each_has_its_word(Answer::no);
   expect_each_has_its_word(ContactKind::hazards);
-  expect_each_has_its_word(ReasonWord::no_lease);
+  expect_each_has_its_word(ReasonWord::another_stop);
   expect_each_has_its_word(EventKind::choice);
 }
 

@@ -99,7 +99,7 @@ test('what the page says is what the server was tested with', () => {
     answerOf(id, 'intelligence', 'dog', 'en'),
     leaseOf(id, true),
     steerOf(true, 0.5, -0.25),
-    stopOf(id, true),
+    stopOf(id, true, 0),
     setHoursOf(id, 'web'),
     voteOf(id, '018f3a6c-5b2e-7c3d-9a4b-0123456789ac', 'space'),
     watchOf(true),

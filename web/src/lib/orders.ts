@@ -52,5 +52,6 @@ export const answerOf = (
 // Of operators alone.
 export const leaseOf = (id: string, wants: boolean): LeaseMessage => ({ type: 'lease', id, wants });
 export const steerOf = (pressed: boolean, forward: number, turn: number): SteerMessage => ({ type: 'steer', pressed, forward, turn });
-export const stopOf = (id: string, stopped: boolean): StopMessage => ({ type: 'stop', id, stopped });
+/** A release names the stop that the operator has seen. */
+export const stopOf = (id: string, stopped: boolean, number: number): StopMessage => ({ type: 'stop', id, stopped, number });
 export const setHoursOf = (id: string, mode: SetHoursMessage['mode']): SetHoursMessage => ({ type: 'set_hours', id, mode });

@@ -130,7 +130,7 @@ class OperateDesk {
     this.send(steerOf(this.pressed, this.forward, this.turn));
   }
   stop(stopped: boolean): void {
-    this.send(stopOf(uuid7(), stopped));
+    this.send(stopOf(uuid7(), stopped, stopped ? 0 : (this.operation?.stop_number ?? 0)));
   }
   /** Sends it into a room, or into the next one. */
   goTo(room: string): void {

@@ -158,4 +158,6 @@ export default {
   reason_stopped_by_hand: 'Jemand vom Personal hat mich angehalten.',
   reason_steered_by_hand: 'Jemand vom Personal steuert mich.',
   reason_no_lease: 'Du hast das Steuer nicht.',
+  reason_stop_unconfirmed: 'Der Roboter hat den Halt noch nicht bestätigt.',
+  reason_another_stop: 'Inzwischen hat jemand anderes angehalten.',
 } satisfies Words;

@@ -158,6 +158,8 @@ const words = {
   reason_stopped_by_hand: 'An operator has stopped me.',
   reason_steered_by_hand: 'An operator is steering me.',
   reason_no_lease: 'You do not have the wheel.',
+  reason_stop_unconfirmed: 'The robot has not confirmed the stop yet.',
+  reason_another_stop: 'Somebody else has stopped me since.',
 };
 export default words;
 export type Words = typeof words;

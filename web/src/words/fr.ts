@@ -158,4 +158,6 @@ export default {
   reason_stopped_by_hand: 'Un opérateur m’a arrêté.',
   reason_steered_by_hand: 'Un opérateur me conduit.',
   reason_no_lease: 'Vous n’avez pas les commandes.',
+  reason_stop_unconfirmed: 'Le robot n’a pas encore confirmé l’arrêt.',
+  reason_another_stop: 'Quelqu’un d’autre m’a arrêté entre-temps.',
 } satisfies Words;

@@ -8,6 +8,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -75,8 +76,10 @@ class AvoidModule final : public Module {
         widest_field_(body_.scanners.size()),
         avoider_{limits, params, laser_names(body_), std::move(planner)},
         drive_{bus_.publisher(topics::kDrive)},
-        state_{bus_.publisher(topics::kAvoidState)} {
+        state_{bus_.publisher(topics::kAvoidState)},
+        stop_{context, "avoid", [this] { obey_stop(); }} {
     avoider_.know_map(std::make_shared<const OccupancyGrid>(context.museum.map));
+    avoider_.stop_by_hand(stop_.holds());
     subscribe_sensors();
     subscribe_wishes();
     bus_.every(seconds(kTick), [this] { tick(); });
@@ -84,7 +87,7 @@ class AvoidModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     if (auto complaint = avoider_.complaint_of_inputs(bus_.now())) return {"degraded", std::move(complaint->reason)};
-    return {};
+    return stop_.health();
   }
 
  private:
@@ -136,6 +139,11 @@ class AvoidModule final : public Module {
     });
   }
 
+  void obey_stop() {
+    avoider_.stop_by_hand(stop_.holds());
+    decide();
+  }
+
   void limit_speed() {
     if (const auto speed = mode_.max_speed(bus_.now())) avoider_.set_max_speed(*speed);
   }
@@ -150,10 +158,6 @@ class AvoidModule final : public Module {
       limit_speed();
     });
     bus_.every(kModePeriod, [this] { limit_speed(); });
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const docent_msgs::Stop& stop) {
-      avoider_.stop_by_hand(stop.is_stopped);
-      decide();
-    });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const docent_msgs::Steering& steering) {
       avoider_.steer_by_hand(bus_.now(), {steering.is_pressed, steering.forward, steering.turn});
       reflex();  // a hand that lets go
@@ -178,16 +182,17 @@ class AvoidModule final : public Module {
   }
 
   void on_belief(const docent_msgs::Belief& belief) {
-    cells_.clear();
+    believed_.cells.clear();
     for (const auto& cell : belief.cells)
-      cells_.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
-    hypotheses_.clear();
+      believed_.cells.push_back({{cell.x, cell.y, Angle::radians(cell.theta)}, static_cast<double>(cell.mass)});
+    believed_.hypotheses.clear();
     for (const auto& mode : belief.hypotheses)
-      hypotheses_.push_back({{mode.x, mode.y, Angle::radians(mode.theta)}, mode.mass});
-    avoider_.add_belief({cells_, hypotheses_, belief.p_lost, belief.localized});
-    if (!hypotheses_.empty())
-      avoider_.add_place(bus_.now(), from_message(belief.header.stamp), hypotheses_.front().map_from_robot,
-                         from_message(belief.odom_pose), hypotheses_.front().mass);
+      believed_.hypotheses.push_back({{mode.x, mode.y, Angle::radians(mode.theta)}, mode.mass});
+    const auto& modes = believed_.hypotheses;
+    avoider_.add_belief({believed_.cells, modes, belief.p_lost, belief.localized});
+    if (!modes.empty())
+      avoider_.add_place(bus_.now(), from_message(belief.header.stamp), modes.front().map_from_robot,
+                         from_message(belief.odom_pose), modes.front().mass);
   }
 
   void see(std::size_t sensor, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
@@ -262,8 +267,9 @@ class AvoidModule final : public Module {
   double cycle_;
   std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown
   collision_avoidance::Avoider avoider_;
-  std::vector<collision_avoidance::BelievedPose> cells_;       ///< of the newest belief
-  std::vector<collision_avoidance::BelievedPose> hypotheses_;  ///< likewise
+  struct {
+    std::vector<collision_avoidance::BelievedPose> cells, hypotheses;
+  } believed_;  ///< of the newest belief
   transport::Publisher<docent_msgs::Drive> drive_;
   transport::Publisher<docent_msgs::AvoidState> state_;
   collision_avoidance::AvoiderTarget::Mode target_mode_ = collision_avoidance::AvoiderTarget::Mode::stop;
@@ -271,6 +277,7 @@ class AvoidModule final : public Module {
   Time decided_before_{};  ///< the choice before that
   Time driven_{};          ///< the last command
   Time window_shown_{};
+  StopKeeper stop_;  ///< last: it calls
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/modules/drive/hazards_module.h"
 #include "docent/modules/drive/robot_module.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent::modules {
@@ -37,6 +38,7 @@ class MotionModules : public ::testing::Test {
     world->every(seconds(0.1), [this] { world->after(seconds(sees_late), [this] { see(); }); });
     world->every(seconds(0.2), [this] { want(); });
     for (int i = 0; i < 24; ++i) world->every(seconds(0.4), [this, i] { ping(i); });
+    keeper.publish({{}, false, "", 0, true, "web"});
     start_all();
   }
 
@@ -133,6 +135,7 @@ class MotionModules : public ::testing::Test {
   museum::Museum museum;
   robot::RobotConfig config;
   std::unique_ptr<transport::Bus> world = hub.connect("world");
+  transport::Publisher<docent_msgs::Stop> keeper = world->publisher(topics::kStop);
   transport::Publisher<nav_msgs::Odometry> odometry_publisher = world->publisher(topics::kOdometry);
   transport::Publisher<sensor_msgs::LaserScan> front_publisher = world->publisher(topics::kScanFront);
   transport::Publisher<sensor_msgs::LaserScan> rear_publisher = world->publisher(topics::kScanRear);
@@ -247,6 +250,7 @@ TEST_F(MotionModules, TheBaseStopsWhenAvoidDiesAndGoesOnAfterItsReturn) {
 }
 
 TEST_F(MotionModules, NoCommandWaitsForATick) {
+  run(0.01);  // nobody has stopped the robot, they hear
   kill(avoid, avoid_bus);
   auto drive = world->publisher(topics::kDrive);
   run(0.01);  // the ticks of the robot module fall between the commands
@@ -258,6 +262,33 @@ TEST_F(MotionModules, NoCommandWaitsForATick) {
     EXPECT_EQ(wanted.angular.z, angular);
     run(0.012);
   }
+}
+
+TEST_F(MotionModules, AStopOutlivesTheGatewayThatTookItAndAvoid) {
+  run(2.0);
+  EXPECT_GT(wanted.linear.x, 0.1);
+  auto gateway = hub.connect("gateway");
+  auto button = std::make_unique<StopKeeper>(ModuleContext{*gateway, museum, config, "", 1, true}, "web/2", nullptr);
+  run(0.5);
+  button->button().press("ada");
+  button->tell();
+  run(0.01);
+  EXPECT_EQ(wanted.linear.x, 0.0);
+  EXPECT_TRUE(button->button().is_confirmed(1, hub.now()));
+  button.reset();
+  gateway.reset();
+  for (int round = 0; round < 2; ++round) {
+    run(1.0);
+    kill(avoid, avoid_bus);
+    run(0.5);
+    start(avoid, avoid_bus, "avoid", make_avoid);
+    run(1.0);
+    start(robot, robot_bus, "robot", make_robot);
+    const Pose2 before = pose;
+    run(10.0);
+    EXPECT_EQ(distance(pose.position(), before.position()), 0.0) << round;
+  }
+  EXPECT_EQ(state.state, "stopped");
 }
 
 TEST_F(MotionModules, EverySweepIsAnsweredByANewCommandAtOnce) {

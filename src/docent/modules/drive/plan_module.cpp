@@ -3,6 +3,7 @@
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/planning/navigator/navigator.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -104,7 +105,9 @@ class PlanModule final : public Module {
       if (orders) publish(*orders);
     });
     goal_state_.publish(message_of(planning::Pursuit{}, "", bus_.now()));
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const auto& stop) { navigator_.stop(stop.is_stopped); });
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this, view = StopView{}](const auto& stop) mutable {
+      navigator_.stop(view.see(stop));
+    });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const auto&) { navigator_.steer(bus_.now()); });
     bus_.every(Navigator::kStepPeriod, [this] { publish(navigator_.step(whereabouts(), bus_.now())); });
     bus_.every(kValuePeriod, [this] { publish_values(); });

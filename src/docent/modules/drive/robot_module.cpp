@@ -1,6 +1,7 @@
 #include "docent/modules/drive/robot_module.h"
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/robot/watchdog.h"
 
 namespace docent::modules {
@@ -30,7 +31,8 @@ class RobotModule final : public Module {
         params_{params},
         watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
         velocity_{bus_.publisher(topics::kCommandVelocity)},
-        transforms_{bus_.publisher(topics::kTransforms)} {
+        transforms_{bus_.publisher(topics::kTransforms)},
+        stop_{context, "robot", [this] { if (stop_.holds()) command_base(); }} {
     publish_mounts(context.config.body());
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
@@ -52,12 +54,13 @@ class RobotModule final : public Module {
     if (!odometry_received_) return {"starting", "no odometry yet"};
     if (bus_.now() - *odometry_received_ > seconds(1.0)) return {"degraded", "no fresh odometry from the base"};
     if (battery_ < params_.battery_low) return {"degraded", "the battery is low"};
-    return {};
+    return stop_.health();
   }
 
  private:
   void command_base() {
-    const auto command = watchdog_.output(bus_.now());
+    // A second process that knows of the stop, behind the one that decides.
+    const auto command = stop_.holds() ? robot::CommandWatchdog::Command{} : watchdog_.output(bus_.now());
     velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
   }
 
@@ -88,6 +91,7 @@ class RobotModule final : public Module {
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
   std::optional<Time> odometry_received_;
   float battery_ = 1.0F;
+  StopKeeper stop_;  ///< last: it calls
 };
 
 }  // namespace

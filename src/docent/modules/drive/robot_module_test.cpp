@@ -15,10 +15,16 @@ namespace {
 class RobotModule : public ModuleBench {
  protected:
   RobotModule() : ModuleBench{"robot", make_robot} {
+    say_stop(0, false);
     world->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [this](const auto& twist) {
       commands.push_back({now_s(), twist.linear.x, twist.angular.z});
     });
   }
+  /// As another keeper of the stop button says, to all who start, too.
+  void say_stop(std::uint64_t number, bool is_stopped) {
+    keeper.publish({{}, is_stopped, "ada", number, true, "avoid"});
+  }
+  transport::Publisher<docent_msgs::Stop> keeper = world->publisher(topics::kStop);
   struct Command {
     double at, linear, angular;
   };
@@ -71,6 +77,23 @@ TEST_F(RobotModule, ANewProcessObeysNoCommandOfTheOldOnesTime) {
   run(0.2);  // the command would still be fresh
   ASSERT_FALSE(commands.empty());
   for (const Command& command : commands) EXPECT_EQ(command.linear, 0.0);
+}
+
+TEST_F(RobotModule, StandsWhileItIsStoppedWhateverIsCommanded) {
+  start();
+  world->every(seconds(0.1), [this] { drive.publish({{}, 0.4, 0.0}); });
+  run(1.0);
+  EXPECT_EQ(commands.back().linear, 0.4);
+  say_stop(1, true);
+  run(0.001);
+  EXPECT_EQ(commands.back().linear, 0.0) << "at once";
+  commands.clear();
+  start();  // killed
+  run(5.0);
+  for (const Command& command : commands) EXPECT_EQ(command.linear, 0.0);
+  say_stop(2, false);
+  run(0.2);
+  EXPECT_EQ(commands.back().linear, 0.4);
 }
 
 TEST_F(RobotModule, PublishesEveryMountForThoseWhoComeLateAndTheBaseAsOdometryHasIt) {

@@ -11,6 +11,7 @@
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/stop_keeper.h"
 #include "docent/planning/survey/surveyor.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -91,8 +92,9 @@ class ExploreModule final : public Module {
       surveyor_.mount(i, place.base_from_sensor);
       see(i, scan);
     });
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop,
-                                      [this](const auto& stop) { surveyor_.note_stop(stop.is_stopped); });
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this, view = StopView{}](const auto& stop) mutable {
+      surveyor_.note_stop(view.see(stop));
+    });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering,
                                           [this](const auto&) { surveyor_.note_steering(bus_.now()); });
     bus_.subscribe<docent_msgs::ExplorationOrder>(

@@ -63,20 +63,19 @@ telepresence::ScreenDesk::Means screen_means(const std::filesystem::path& state)
 
 telepresence::WebServiceParts service_parts(const ModuleContext& context, const WebParams& params,
                                             telepresence::WebStore store, telepresence::Desk* desk,
-                                            MuseumDesk* museum_desk) {
+                                            MuseumDesk* museum_desk, const std::string& gateway) {
   const interaction::SharedSound horn = interaction::horn_sound();
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);
   parts.is_shared = telepresence::Database::is_shared(params.database);
   parts.max_open_requests = static_cast<std::size_t>(params.max_open_requests);
   parts.forgets_after = seconds(params.forget_hours * 3600.0);
-  parts.stop_file = context.state / "stopped";
   parts.note = [desk](std::string who, std::string what, std::string about) {
     desk->note(std::move(who), std::move(what), std::move(about));
   };
   parts.screen = screen_means(context.state);
   parts.horn = {horn.file, horn.duration_s};
-  parts.gateway = telepresence::make_token();
+  parts.gateway = gateway;
   parts.seed = context.seed;
   parts.operated = [museum_desk](const auto& document) { museum_desk->see(document); };
   return parts;
@@ -116,7 +115,7 @@ class WebModule final : public Module {
     for (const std::string& fault : {start_fault_, service_.fault(), cameras_.fault()}) {
       if (!fault.empty()) return {"degraded", fault};
     }
-    return {};
+    return robot_.stop().health();
   }
 
  private:
@@ -128,9 +127,9 @@ class WebModule final : public Module {
             store.database->was_damaged() ? "web.sqlite was damaged and has been set aside; a new one was begun" : ""},
         offices_{std::move(offices)},
         desk_{std::move(desk)},
-        robot_{bus_},
-        service_{service_parts(context, params_, std::move(store), desk_.get(), offices_.museum.get()), context.museum,
-                 robot_, viewers_, bus_.now()},
+        robot_{context, "web/" + telepresence::make_token()},
+        service_{service_parts(context, params_, std::move(store), desk_.get(), offices_.museum.get(), robot_.name()),
+                 context.museum, robot_, robot_.stop().button(), viewers_, bus_.now()},
         mode_{context},
         foxglove_{bus_, "Docent, " + museum::translated(context.museum.name, "en")},
         live_{bus_, context.config.body(), params_} {}
@@ -206,7 +205,8 @@ class WebModule final : public Module {
       service_.see(limits);
       mode_.limits(limits);
     });
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop, see);
+    // After the keeper of the button, which has heard it already: somebody may wait for the answer.
+    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const auto&) { service_.confirm(bus_.now()); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, see);
     bus_.subscribe<docent_msgs::Event>(topics::kEvent, see);
     bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, see);

@@ -234,7 +234,7 @@ std::map<std::string, std::string> contract_samples() {
                                                      {0.0, 0.0, 0.15, 1, 1, base64({255})}})},
       {"exploration.json", exploration()},
       {"log.json", json_text(documents::LogMessage{{{12.5, "visit_started", "sputnik", ""}}})},
-      {"operation.json", json_text(documents::OperationMessage{"ada", true, true, "grace", "web"})},
+      {"operation.json", json_text(documents::OperationMessage{"ada", true, true, "grace", 3, "web"})},
       {"health.json", health()},
       {"window.json", encode_window(avoid_state())},
       {"ack.json", encode_acknowledgement("018f3a6c-5b2e-7c3d-9a4b-0123456789ab")},

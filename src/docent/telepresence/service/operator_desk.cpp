@@ -1,37 +1,35 @@
 #include "docent/telepresence/service/operator_desk.h"
 
-#include <system_error>
 #include <utility>
 
-#include "docent/base/files.h"
 #include "docent/messages/conversions.h"
 
 namespace docent::telepresence {
 namespace {
 
 constexpr Duration kStale = std::chrono::milliseconds{300};  // a hand that was not heard for so long holds nothing
+constexpr Duration kConfirmedWithin = std::chrono::seconds{2};
 constexpr Duration kLeaseLasts = std::chrono::seconds{2};    // without word from its holder
 
 }  // namespace
 
-OperatorDesk::OperatorDesk(RobotLink& robot, std::filesystem::path stop_file, Note note, Time now)
-    : robot_{robot}, stop_file_{std::move(stop_file)}, note_{std::move(note)} {
-  if (auto by = read_file(stop_file_)) {
-    stop_ = {{to_message(now), ""}, true, *by};
-    robot_.tell(stop_);
+OperatorDesk::OperatorDesk(RobotLink& robot, robot::StopRegister& button, Note note)
+    : robot_{robot}, button_{button}, note_{std::move(note)} {}
+
+bool OperatorDesk::take(const Caller& caller, const ClientMessage& message, Time now) {
+  if (const auto* lease = std::get_if<LeaseMessage>(&message)) {
+    answers_.push_back({caller.id, lease->id, take_lease(caller, lease->wants, now)});
+  } else if (const auto* steering = std::get_if<SteerMessage>(&message)) {
+    const Reason why_not = steer(caller, *steering, now);
+    if (!why_not.is_none()) answers_.push_back({caller.id, {}, why_not});
+  } else if (const auto* wish = std::get_if<StopMessage>(&message)) {
+    stop(caller, *wish, now);
+  } else if (const auto* hours = std::get_if<SetHoursMessage>(&message)) {
+    answers_.push_back({caller.id, hours->id, set_hours(caller, hours->mode)});
+  } else {
+    return false;
   }
-}
-
-void OperatorDesk::see(const docent_msgs::Stop& stop) {
-  if (from_message(stop.header.stamp) > from_message(stop_.header.stamp)) stop_ = stop;
-}
-
-std::optional<Reason> OperatorDesk::take(const Caller& caller, const ClientMessage& message, Time now) {
-  if (const auto* lease = std::get_if<LeaseMessage>(&message)) return take_lease(caller, lease->wants, now);
-  if (const auto* wish = std::get_if<SteerMessage>(&message)) return steer(caller, *wish, now);
-  if (const auto* wish = std::get_if<StopMessage>(&message)) return stop(caller, wish->stopped, now);
-  if (const auto* hours = std::get_if<SetHoursMessage>(&message)) return set_hours(caller, hours->mode);
-  return std::nullopt;
+  return true;
 }
 
 Reason OperatorDesk::take_lease(const Caller& caller, bool wants, Time now) {
@@ -56,18 +54,26 @@ Reason OperatorDesk::steer(const Caller& caller, const SteerMessage& wish, Time 
   return {};
 }
 
-Reason OperatorDesk::stop(const Caller& caller, bool is_stopped, Time now) {
-  stop_ = {{to_message(now), ""}, is_stopped, caller.name};
-  robot_.tell(stop_);  // first, whatever the disk says
-  note_(caller.name, "stop", is_stopped ? "pressed" : "released");
-  fault_.clear();
-  std::error_code error;
-  if (is_stopped) {
-    if (auto kept = write_file_atomically(stop_file_, caller.name); !kept) fault_ = kept.error().message;
-  } else if (std::filesystem::remove(stop_file_, error); error) {
-    fault_ = stop_file_.string() + ": cannot be removed: " + error.message();
+void OperatorDesk::stop(const Caller& caller, const StopMessage& wish, Time now) {
+  if (wish.stopped) {
+    button_.press(caller.name);
+  } else if (!button_.release(caller.name, static_cast<std::uint64_t>(wish.number)) && button_.state().is_stopped) {
+    answers_.push_back({caller.id, wish.id, {ReasonWord::another_stop, button_.state().by}});
+    return;
   }
-  return {};
+  robot_.tell_stop();
+  unconfirmed_.push_back({caller.id, wish.id, button_.state().number, now + kConfirmedWithin});
+  note_(caller.name, "stop", wish.stopped ? "pressed" : "released");
+}
+
+std::vector<OperatorDesk::Answer> OperatorDesk::answers(Time now) {
+  std::erase_if(unconfirmed_, [&](const Unconfirmed& order) {
+    const bool is_confirmed = button_.is_confirmed(order.number, now);
+    if (!is_confirmed && now < order.given_up) return false;
+    answers_.push_back({order.viewer, order.id, is_confirmed ? Reason{} : Reason{ReasonWord::stop_unconfirmed}});
+    return true;
+  });
+  return std::exchange(answers_, {});
 }
 
 Reason OperatorDesk::set_hours(const Caller& caller, OperatingMode mode) {
@@ -99,8 +105,8 @@ void OperatorDesk::steer_on(Time now) {
 }
 
 documents::OperationMessage OperatorDesk::document() const {
-  return {lease_ ? lease_->holder.name : "", lease_ && lease_->wish.pressed, stop_.is_stopped, stop_.by,
-          limits_ ? limits_->mode : ""};
+  return {lease_ ? lease_->holder.name : "", lease_ && lease_->wish.pressed, button_.state().is_stopped, button_.state().by,
+          static_cast<int>(button_.state().number), limits_ ? limits_->mode : ""};
 }
 
 }  // namespace docent::telepresence

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "docent/messages/operation_messages.h"
+#include "docent/robot/stop_register.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/server/web_server.h"
@@ -15,26 +17,33 @@
 namespace docent::telepresence {
 
 /// What operators order. One at a time holds the lease to steer, as long as they send; the robot
-/// moves only while they hold the dead man's switch down. The stop button needs no lease, and it outlives a restart.
+/// moves only while they hold the dead man's switch down. The stop button needs no lease; it is answered when enough
+/// processes of the robot hold the order. Nothing here waits for a disk.
 class OperatorDesk {
  public:
-  /// Told what an operator did, for the audit log.
+  /// Told what an operator did, for the audit log. @pre returns at once
   using Note = std::function<void(std::string who, std::string what, std::string about)>;
 
-  /// The robot outlives it. @param stop_file  is there while the robot is stopped
-  OperatorDesk(RobotLink& robot, std::filesystem::path stop_file, Note note, Time now);
+  /// The robot and the button outlive it. @param button  this process's copy of it
+  OperatorDesk(RobotLink& robot, robot::StopRegister& button, Note note);
 
-  /// None: it is done. nullopt: no operator's message.
-  [[nodiscard]] std::optional<Reason> take(const Caller& caller, const ClientMessage& message, Time now);
+  /// @returns whether it was an operator's message; its answer is among the next `answers`
+  [[nodiscard]] bool take(const Caller& caller, const ClientMessage& message, Time now);
   void left(const Caller& caller, Time now);
   /// As somebody said them.
   void see(const docent_msgs::Limits& limits) { limits_ = limits; }
-  /// Another gateway has a stop button too.
-  void see(const docent_msgs::Stop& stop);
   /// Ten times a second: steers as whoever holds the lease wishes, and ends it when they are silent.
   void steer_on(Time now);
   [[nodiscard]] documents::OperationMessage document() const;
-  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+  /// What became of a message.
+  struct Answer {
+    ViewerId viewer{};
+    std::string id;  ///< empty: of steering, which has none and is answered only where it was refused
+    Reason why_not;  ///< none: it is done
+  };
+  /// All that are due; each is returned once.
+  [[nodiscard]] std::vector<Answer> answers(Time now);
 
  private:
   struct Lease {
@@ -42,19 +51,26 @@ class OperatorDesk {
     SteerMessage wish;
     Time heard;
   };
+  /// An order of the stop button that the robot has not confirmed yet.
+  struct Unconfirmed {
+    ViewerId viewer{};
+    std::string id;
+    std::uint64_t number = 0;
+    Time given_up;
+  };
   [[nodiscard]] Reason take_lease(const Caller& caller, bool wants, Time now);
   [[nodiscard]] Reason steer(const Caller& caller, const SteerMessage& wish, Time now);
-  [[nodiscard]] Reason stop(const Caller& caller, bool is_stopped, Time now);
+  void stop(const Caller& caller, const StopMessage& wish, Time now);
   [[nodiscard]] Reason set_hours(const Caller& caller, OperatingMode mode);
   void release(Time now);
 
   RobotLink& robot_;
-  const std::filesystem::path stop_file_;
+  robot::StopRegister& button_;
   const Note note_;
   std::optional<Lease> lease_;
-  docent_msgs::Stop stop_;
   std::optional<docent_msgs::Limits> limits_;  ///< as somebody said them last
-  std::string fault_;
+  std::vector<Unconfirmed> unconfirmed_;
+  std::vector<Answer> answers_;
 };
 
 }  // namespace docent::telepresence

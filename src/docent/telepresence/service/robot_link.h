@@ -18,7 +18,8 @@ class RobotLink {
   virtual void tell(docent_msgs::ButtonLamps lamps) = 0;
   virtual void tell(docent_msgs::Say line) = 0;
   virtual void tell(docent_msgs::Steering steering) = 0;
-  virtual void tell(docent_msgs::Stop stop) = 0;
+  /// What this process's copy of the stop button holds now.
+  virtual void tell_stop() = 0;
   virtual void tell(docent_msgs::Limits limits) = 0;
 };
 

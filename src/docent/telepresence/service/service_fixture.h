@@ -19,7 +19,7 @@ class RobotEar final : public RobotLink {
   void tell(docent_msgs::ButtonLamps message) override { lamps.push_back(std::move(message.lit)); }
   void tell(docent_msgs::Say line) override { says.push_back(std::move(line)); }
   void tell(docent_msgs::Steering message) override { steered.push_back(std::move(message)); }
-  void tell(docent_msgs::Stop stop) override { stops.push_back(std::move(stop)); }
+  void tell_stop() override { ++stops; }
   void tell(docent_msgs::Limits message) override { limits.push_back(std::move(message)); }
 
   std::vector<docent_msgs::Request> requests;
@@ -28,7 +28,7 @@ class RobotEar final : public RobotLink {
   std::vector<std::vector<std::int32_t>> lamps;
   std::vector<docent_msgs::Say> says;
   std::vector<docent_msgs::Steering> steered;
-  std::vector<docent_msgs::Stop> stops;
+  int stops = 0;  ///< times that it was told of the stop button
   std::vector<docent_msgs::Limits> limits;
 };
 

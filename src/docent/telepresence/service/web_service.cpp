@@ -24,8 +24,8 @@ RequestSource source_of(Role role) {
 
 }  // namespace
 
-WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, Viewers& viewers,
-                       Time now)
+WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot,
+                       robot::StopRegister& button, Viewers& viewers, Time now)
     : museum_{museum},
       viewers_{viewers},
       database_{std::move(parts.store.database)},
@@ -37,15 +37,15 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
       answers_{robot},
       screen_{robot, std::move(parts.screen), now},
       votes_{robot, museum, std::move(parts.store.votes), parts.seed, now},
-      operator_{robot, std::move(parts.stop_file), std::move(parts.note), now},
+      operator_{robot, button, std::move(parts.note)},
       counts_{std::move(parts.store.statistics), std::move(parts.gateway), now} {}
 
 void WebService::take(const Caller& caller, const ClientMessage& message, Time now) {
   const ViewerId viewer = caller.id;
   const RequestSource source = source_of(caller.role);
-  if (const auto done = operator_.take(caller, message, now)) {
+  if (operator_.take(caller, message, now)) {
     show_operation();
-    return answer_operator(viewer, message, *done);
+    return answer_operators(now);
   }
   if (const auto* request = std::get_if<RequestMessage>(&message))
     return answer(viewer, request->id, take_request(*request, source, now));
@@ -97,12 +97,19 @@ void WebService::answer(ViewerId viewer, const std::string& id, const Reason& wh
   viewers_.answer(viewer, why_not.is_none() ? encode_acknowledgement(id) : encode_refusal(id, why_not));
 }
 
-/// Steering has no id: it is answered only where it was refused.
-void WebService::answer_operator(ViewerId viewer, const ClientMessage& message, const Reason& why_not) {
-  if (const auto* lease = std::get_if<LeaseMessage>(&message)) return answer(viewer, lease->id, why_not);
-  if (const auto* stop = std::get_if<StopMessage>(&message)) return answer(viewer, stop->id, why_not);
-  if (const auto* hours = std::get_if<SetHoursMessage>(&message)) return answer(viewer, hours->id, why_not);
-  if (const auto word = why_not.word()) viewers_.answer(viewer, encode_error(*word));
+void WebService::answer_operators(Time now) {
+  for (const auto& [viewer, id, why_not] : operator_.answers(now)) {
+    if (!id.empty()) {
+      answer(viewer, id, why_not);
+    } else if (const auto word = why_not.word()) {
+      viewers_.answer(viewer, encode_error(*word));
+    }
+  }
+}
+
+void WebService::steer_on(Time now) {
+  operator_.steer_on(now);
+  answer_operators(now);
 }
 
 void WebService::show_if_new(Kept kept, slots::Slot slot, std::string text) {
@@ -172,7 +179,7 @@ void WebService::forget_old(Time now) {
 
 std::string WebService::fault() const {
   for (const std::string* fault :
-       {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &operator_.fault(), &counts_.fault()})
+       {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &counts_.fault()})
     if (!fault->empty()) return *fault;
   return {};
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,7 +42,6 @@ struct WebServiceParts {
   bool is_shared = false;           ///< other gateways write into the same database
   std::size_t max_open_requests{};  ///< of everybody together; more are refused
   Duration forgets_after{};         ///< then a request is given up
-  std::filesystem::path stop_file;  ///< is there while the robot is stopped
   OperatorDesk::Note note;
   ScreenDesk::Means screen;
   HornSound horn;
@@ -58,8 +56,9 @@ struct WebServiceParts {
 /// thread, but for `health_document`.
 class WebService {
  public:
-  /// Museum, robot and viewers outlive it.
-  WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, Viewers& viewers, Time now);
+  /// Museum, robot, button and viewers outlive it. @param button  this process's copy of the stop button
+  WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, robot::StopRegister& button,
+             Viewers& viewers, Time now);
 
   // From the Web:
 
@@ -76,7 +75,6 @@ class WebService {
   void see(const docent_msgs::Expression& expression);
   void see(const docent_msgs::RequestBoard& board, Time now);
   void see(const docent_msgs::Limits& limits) { operator_.see(limits); }
-  void see(const docent_msgs::Stop& stop) { operator_.see(stop); }
   void see(const nav_msgs::Odometry& odometry) { counts_.see(odometry); }
   void see(const docent_msgs::Event& event) { counts_.see(event); }
   void see(const docent_msgs::Health& health, Time now) { health_.see(health, now); }
@@ -96,7 +94,9 @@ class WebService {
   /// Now and then: tells the robot again what it has not answered.
   void resend(Time now);
   /// Ten times a second.
-  void steer_on(Time now) { operator_.steer_on(now); }
+  void steer_on(Time now);
+  /// A copy of the stop button has been heard of: answers those whose order enough copies hold.
+  void confirm(Time now) { answer_operators(now); }
   /// A few times a second: what operators order.
   void show_operation();
   /// Every ten seconds. @param accesses  all that the server was ever asked
@@ -114,7 +114,7 @@ class WebService {
   enum class Kept { expression, hours, operation, count };
   void show_if_new(Kept kept, slots::Slot slot, std::string text);
   void answer(ViewerId viewer, const std::string& id, const Reason& why_not);
-  void answer_operator(ViewerId viewer, const ClientMessage& message, const Reason& why_not);
+  void answer_operators(Time now);
   [[nodiscard]] Reason take_request(const RequestMessage& message, RequestSource source, Time now);
   [[nodiscard]] Reason take_cancel(const CancelMessage& message, RequestSource source, Time now);
   [[nodiscard]] Reason take_vote(const VoteMessage& message, Time now);

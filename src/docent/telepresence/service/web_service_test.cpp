@@ -25,23 +25,20 @@ museum::Museum small_museum() {
 /// The service with a robot and viewers who write down what they hear; the test is the Web and the clock.
 class WebServiceTest : public testing::Test {
  protected:
-  WebServiceTest() : stop_file_{testing::TempDir() + "/service-stopped-" + std::to_string(::getpid())} {
-    std::filesystem::remove(stop_file_);
+  WebServiceTest() {
     WebServiceParts parts;
     parts.store = WebStore::open(":memory:").value();
     database_ = parts.store.database.get();
     parts.max_open_requests = 2;
     parts.forgets_after = std::chrono::hours{1};
-    parts.stop_file = stop_file_;
     parts.note = [](const std::string&, const std::string&, const std::string&) {};
     parts.screen = {[](const AnswerMessage&, Time) { return Result<void>{}; },
                     [](const std::string&) { return "help"; }};
     parts.horn = {"00ff.wav", 0.5};
     parts.gateway = "one";
     parts.operated = [this](const documents::OperationMessage& operation) { operations_.push_back(operation); };
-    service_ = std::make_unique<WebService>(std::move(parts), museum_, robot_, viewers_, now_);
+    service_ = std::make_unique<WebService>(std::move(parts), museum_, robot_, button_, viewers_, now_);
   }
-  ~WebServiceTest() override { std::filesystem::remove(stop_file_); }
 
   /// What the caller is answered; empty: nothing.
   std::string take(const ClientMessage& message, Role role = Role::visitor) {
@@ -70,9 +67,9 @@ class WebServiceTest : public testing::Test {
   }
   void look() { service_->look({"open", true}, 3, now_); }
 
-  const std::string stop_file_;
   museum::Museum museum_ = small_museum();
   Time now_ = time_from_seconds(100.0);
+  robot::StopRegister button_{"web", {}, now_};
   RobotEar robot_;
   ViewerEyes viewers_;
   std::vector<documents::OperationMessage> operations_;
@@ -185,9 +182,13 @@ TEST_F(WebServiceTest, AnOperatorStopsTheRobotAndAllOperatorsSeeIt) {
   service_->show_operation();
   service_->show_operation();
   EXPECT_EQ(viewers_.of(slots::kOperation).size(), 1U);
-  EXPECT_EQ(take(StopMessage{kId, true}, Role::staff), encode_acknowledgement(kId));
-  ASSERT_EQ(robot_.stops.size(), 1U);
-  EXPECT_TRUE(robot_.stops[0].is_stopped);
+  EXPECT_EQ(take(StopMessage{kId, true}, Role::staff), "") << "the robot has not confirmed it";
+  EXPECT_EQ(robot_.stops, 1);
+  EXPECT_TRUE(button_.state().is_stopped);
+  for (const char* keeper : {"avoid", "robot"}) button_.hear(keeper, {button_.state(), true}, now_);
+  service_->confirm(now_);
+  ASSERT_EQ(viewers_.answers.size(), 1U);
+  EXPECT_EQ(viewers_.answers[0].second, encode_acknowledgement(kId));
   EXPECT_EQ(viewers_.of(slots::kOperation).size(), 2U) << "at once";
   ASSERT_EQ(operations_.size(), 3U);
   EXPECT_TRUE(operations_.back().is_stopped);
