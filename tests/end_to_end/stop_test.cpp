@@ -24,8 +24,8 @@ const std::string kMuseum = std::string{DOCENT_SOURCES} + "/museums/bonn";
 class Gateway {
  public:
   explicit Gateway(const std::string& name) : bus_{std::move(*transport::DdsBus::create({kDomain, "", {}}))} {
-    keeper_ = std::make_unique<modules::StopKeeper>(modules::ModuleContext{*bus_, museum_, config_, "", 1}, name,
-                                                    [] {});
+    keeper_ =
+        std::make_unique<modules::StopKeeper>(modules::ModuleContext{*bus_, museum_, config_, "", 1}, name, [] {});
     bus_->every(std::chrono::milliseconds{5}, [this] { look(); });
     thread_ = std::jthread{[this](const std::stop_token& stop) { bus_->run(stop); }};
   }

@@ -43,8 +43,8 @@ struct Steering {
   }
 };
 
-/// What one of its keepers knows of the stop button; latched, and repeated. Of several keepers the one with the greatest
-/// number is right; of equal numbers one that says stopped.
+/// What one of its keepers knows of the stop button; latched, and repeated. Of several keepers the one with the
+/// greatest number is right; of equal numbers one that says stopped.
 struct Stop {
   static constexpr const char* kType = "docent_msgs/msg/Stop";
   std_msgs::Header header;

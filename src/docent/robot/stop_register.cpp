@@ -18,7 +18,8 @@ bool overrules(const StopState& a, const StopState& b) {
 }
 
 std::string to_line(const StopState& state) {
-  return std::to_string(state.number) + " " + std::string{state.is_stopped ? kStopped : kReleased} + " " + state.by + "\n";
+  return std::to_string(state.number) + " " + std::string{state.is_stopped ? kStopped : kReleased} + " " + state.by +
+         "\n";
 }
 
 Result<StopState> stop_state_of(std::string_view line) {

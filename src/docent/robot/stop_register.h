@@ -47,7 +47,8 @@ class StopRegister {
 
   /// @param name  no other keeper's
   /// @param kept  what its file said
-  StopRegister(std::string name, const StopState& kept, Time now) : StopRegister(std::move(name), kept, now, Params{}) {}
+  StopRegister(std::string name, const StopState& kept, Time now)
+      : StopRegister(std::move(name), kept, now, Params{}) {}
   StopRegister(std::string name, StopState kept, Time now, const Params& params);
 
   /// What another keeper said. @returns whether that is news

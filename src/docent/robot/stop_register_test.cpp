@@ -61,7 +61,8 @@ TEST(StopState, ALineOfAFileHoldsIt) {
     ASSERT_TRUE(read) << to_line(state);
     EXPECT_EQ(*read, state);
   }
-  for (const char* damaged : {"", "12", "12 ", "stopped ada\n", "12 halted ada\n", "12 stopped ad", "12 stopped", "-1 stopped a\n"})
+  for (const char* damaged :
+       {"", "12", "12 ", "stopped ada\n", "12 halted ada\n", "12 stopped ad", "12 stopped", "-1 stopped a\n"})
     EXPECT_FALSE(stop_state_of(damaged)) << damaged;
 }
 

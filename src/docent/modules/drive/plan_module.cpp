@@ -105,9 +105,8 @@ class PlanModule final : public Module {
       if (orders) publish(*orders);
     });
     goal_state_.publish(message_of(planning::Pursuit{}, "", bus_.now()));
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this, view = StopView{}](const auto& stop) mutable {
-      navigator_.stop(view.see(stop));
-    });
+    bus_.subscribe<docent_msgs::Stop>(
+        topics::kStop, [this, view = StopView{}](const auto& stop) mutable { navigator_.stop(view.see(stop)); });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const auto&) { navigator_.steer(bus_.now()); });
     bus_.every(Navigator::kStepPeriod, [this] { publish(navigator_.step(whereabouts(), bus_.now())); });
     bus_.every(kValuePeriod, [this] { publish_values(); });

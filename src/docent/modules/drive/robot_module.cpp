@@ -32,7 +32,9 @@ class RobotModule final : public Module {
         watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
         velocity_{bus_.publisher(topics::kCommandVelocity)},
         transforms_{bus_.publisher(topics::kTransforms)},
-        stop_{context, "robot", [this] { if (stop_.holds()) command_base(); }} {
+        stop_{context, "robot", [this] {
+                if (stop_.holds()) command_base();
+              }} {
     publish_mounts(context.config.body());
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});

@@ -92,9 +92,8 @@ class ExploreModule final : public Module {
       surveyor_.mount(i, place.base_from_sensor);
       see(i, scan);
     });
-    bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this, view = StopView{}](const auto& stop) mutable {
-      surveyor_.note_stop(view.see(stop));
-    });
+    bus_.subscribe<docent_msgs::Stop>(
+        topics::kStop, [this, view = StopView{}](const auto& stop) mutable { surveyor_.note_stop(view.see(stop)); });
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering,
                                           [this](const auto&) { surveyor_.note_steering(bus_.now()); });
     bus_.subscribe<docent_msgs::ExplorationOrder>(

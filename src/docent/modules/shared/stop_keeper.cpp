@@ -57,7 +57,11 @@ void StopKeeper::hear(const docent_msgs::Stop& stop) {
 void StopKeeper::tell() {
   const Time now = bus_.now();
   if (const auto word = register_.say(now))
-    says_.publish({{to_message(now), ""}, word->state.is_stopped, word->state.by, word->state.number, word->is_sure,
+    says_.publish({{to_message(now), ""},
+                   word->state.is_stopped,
+                   word->state.by,
+                   word->state.number,
+                   word->is_sure,
                    register_.name()});
   keep();
   if (std::exchange(held_, holds()) != held_ && changed_) changed_();

@@ -94,7 +94,8 @@ TEST_F(StopKeeperTest, OutlivesThePowerByItsFiles) {
   press();
   run(0.5);
   for (std::size_t i = 0; i < kNames.size(); ++i) kill(i);
-  for (const char* name : {"avoid", "robot", "web"}) EXPECT_EQ(read_file(file_of(name)).value(), "1 stopped ada\n") << name;
+  for (const char* name : {"avoid", "robot", "web"})
+    EXPECT_EQ(read_file(file_of(name)).value(), "1 stopped ada\n") << name;
   std::filesystem::remove(file_of("web"));
   start_all();
   run(5.0);

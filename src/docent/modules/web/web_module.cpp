@@ -129,7 +129,11 @@ class WebModule final : public Module {
         desk_{std::move(desk)},
         robot_{context, "web/" + telepresence::make_token()},
         service_{service_parts(context, params_, std::move(store), desk_.get(), offices_.museum.get(), robot_.name()),
-                 context.museum, robot_, robot_.stop().button(), viewers_, bus_.now()},
+                 context.museum,
+                 robot_,
+                 robot_.stop().button(),
+                 viewers_,
+                 bus_.now()},
         mode_{context},
         foxglove_{bus_, "Docent, " + museum::translated(context.museum.name, "en")},
         live_{bus_, context.config.body(), params_} {}

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Duration kStale = std::chrono::milliseconds{300};  // a hand that was not heard for so long holds nothing
 constexpr Duration kConfirmedWithin = std::chrono::seconds{2};
-constexpr Duration kLeaseLasts = std::chrono::seconds{2};    // without word from its holder
+constexpr Duration kLeaseLasts = std::chrono::seconds{2};  // without word from its holder
 
 }  // namespace
 
@@ -105,8 +105,12 @@ void OperatorDesk::steer_on(Time now) {
 }
 
 documents::OperationMessage OperatorDesk::document() const {
-  return {lease_ ? lease_->holder.name : "", lease_ && lease_->wish.pressed, button_.state().is_stopped, button_.state().by,
-          static_cast<int>(button_.state().number), limits_ ? limits_->mode : ""};
+  return {lease_ ? lease_->holder.name : "",
+          lease_ && lease_->wish.pressed,
+          button_.state().is_stopped,
+          button_.state().by,
+          static_cast<int>(button_.state().number),
+          limits_ ? limits_->mode : ""};
 }
 
 }  // namespace docent::telepresence

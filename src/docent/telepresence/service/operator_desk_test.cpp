@@ -39,7 +39,8 @@ class OperatorDeskTest : public testing::Test {
   RobotEar robot_;
   std::vector<std::string> notes_;
   robot::StopRegister button_{"web", {}, now_};
-  OperatorDesk desk_{robot_, button_, [this](const std::string& who, const std::string& what, const std::string& about) {
+  OperatorDesk desk_{robot_, button_,
+                     [this](const std::string& who, const std::string& what, const std::string& about) {
                        notes_.push_back(who + " " + what + " " + about);
                      }};
 };

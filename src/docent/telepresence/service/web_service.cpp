@@ -178,8 +178,7 @@ void WebService::forget_old(Time now) {
 }
 
 std::string WebService::fault() const {
-  for (const std::string* fault :
-       {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &counts_.fault()})
+  for (const std::string* fault : {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &counts_.fault()})
     if (!fault->empty()) return *fault;
   return {};
 }
