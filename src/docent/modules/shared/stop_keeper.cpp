@@ -12,16 +12,16 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds{100};
 
-robot::StopRegister::Word word_of(const docent_msgs::Stop& stop) {
+StopRegister::Word word_of(const docent_msgs::Stop& stop) {
   return {{stop.number, stop.is_stopped, stop.by}, stop.is_sure};
 }
 
 /// Where the file cannot be read, the robot is taken for stopped: somebody has to look anyway.
-robot::StopState read_kept(const std::filesystem::path& file, std::string& fault) {
+StopState read_kept(const std::filesystem::path& file, std::string& fault) {
   std::error_code none;
   if (file.empty() || !std::filesystem::exists(file, none)) return {};
   const auto line = read_file(file);
-  const auto state = line ? robot::stop_state_of(*line) : tl::unexpected<Error>(line.error());
+  const auto state = line ? stop_state_of(*line) : tl::unexpected<Error>(line.error());
   if (state) return *state;
   fault = (line ? file.string() + ": " : std::string{}) + state.error().message + "; the robot stays stopped";
   return {0, true, file.filename().string()};
@@ -70,7 +70,7 @@ void StopKeeper::tell() {
 void StopKeeper::keep() {
   if (register_.state() == kept_) return;
   kept_ = register_.state();
-  if (!file_.empty()) writer_.write(file_, robot::to_line(kept_));
+  if (!file_.empty()) writer_.write(file_, to_line(kept_));
 }
 
 ModuleHealth StopKeeper::health() const {
@@ -81,8 +81,8 @@ ModuleHealth StopKeeper::health() const {
 }
 
 bool StopView::see(const docent_msgs::Stop& stop) {
-  const robot::StopState state = word_of(stop).state;
-  if (robot::overrules(state, state_)) state_ = state;
+  const StopState state = word_of(stop).state;
+  if (overrules(state, state_)) state_ = state;
   return state_.is_stopped;
 }
 

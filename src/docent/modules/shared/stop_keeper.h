@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "docent/base/write_behind.h"
 #include "docent/messages/operation_messages.h"
+#include "docent/messages/stop_button/stop_register.h"
 #include "docent/modules/shared/module.h"
-#include "docent/robot/stop_register.h"
+#include "docent/robot/write_behind.h"
 
 namespace docent::modules {
 
@@ -20,8 +20,8 @@ class StopKeeper {
   StopKeeper(const ModuleContext& context, std::string name, std::function<void()> changed);
 
   [[nodiscard]] bool holds() const { return register_.holds(bus_.now()); }
-  [[nodiscard]] robot::StopRegister& button() { return register_; }
-  [[nodiscard]] const robot::StopRegister& button() const { return register_; }
+  [[nodiscard]] StopRegister& button() { return register_; }
+  [[nodiscard]] const StopRegister& button() const { return register_; }
   /// After the button was pressed or released: at once, not with the next repetition.
   void tell();
   /// Why the file does not hold it, or that it asks still; empty: all is well.
@@ -34,12 +34,12 @@ class StopKeeper {
   transport::Bus& bus_;
   const std::filesystem::path file_;
   std::string read_fault_;
-  robot::StopRegister register_;
-  robot::StopState kept_;  ///< as the file holds it, or soon will
+  StopRegister register_;
+  StopState kept_;  ///< as the file holds it, or soon will
   const std::function<void()> changed_;
   transport::Publisher<docent_msgs::Stop> says_;
   bool held_ = true;
-  WriteBehind writer_;
+  robot::WriteBehind writer_;
 };
 
 /// For modules that keep no copy: whether the robot is stopped, of what all keepers say.
@@ -49,7 +49,7 @@ class StopView {
   bool see(const docent_msgs::Stop& stop);
 
  private:
-  robot::StopState state_;
+  StopState state_;
 };
 
 }  // namespace docent::modules

@@ -13,7 +13,7 @@ constexpr Duration kLeaseLasts = std::chrono::seconds{2};  // without word from 
 
 }  // namespace
 
-OperatorDesk::OperatorDesk(RobotLink& robot, robot::StopRegister& button, Note note)
+OperatorDesk::OperatorDesk(RobotLink& robot, StopRegister& button, Note note)
     : robot_{robot}, button_{button}, note_{std::move(note)} {}
 
 bool OperatorDesk::take(const Caller& caller, const ClientMessage& message, Time now) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "docent/messages/operation_messages.h"
-#include "docent/robot/stop_register.h"
+#include "docent/messages/stop_button/stop_register.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/server/web_server.h"
@@ -25,7 +25,7 @@ class OperatorDesk {
   using Note = std::function<void(std::string who, std::string what, std::string about)>;
 
   /// The robot and the button outlive it. @param button  this process's copy of it
-  OperatorDesk(RobotLink& robot, robot::StopRegister& button, Note note);
+  OperatorDesk(RobotLink& robot, StopRegister& button, Note note);
 
   /// @returns whether it was an operator's message; its answer is among the next `answers`
   [[nodiscard]] bool take(const Caller& caller, const ClientMessage& message, Time now);
@@ -65,7 +65,7 @@ class OperatorDesk {
   void release(Time now);
 
   RobotLink& robot_;
-  robot::StopRegister& button_;
+  StopRegister& button_;
   const Note note_;
   std::optional<Lease> lease_;
   std::optional<docent_msgs::Limits> limits_;  ///< as somebody said them last

@@ -38,7 +38,7 @@ class OperatorDeskTest : public testing::Test {
   Time next_step_ = now_ + seconds(0.1);
   RobotEar robot_;
   std::vector<std::string> notes_;
-  robot::StopRegister button_{"web", {}, now_};
+  StopRegister button_{"web", {}, now_};
   OperatorDesk desk_{robot_, button_,
                      [this](const std::string& who, const std::string& what, const std::string& about) {
                        notes_.push_back(who + " " + what + " " + about);

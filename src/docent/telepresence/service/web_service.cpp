@@ -24,8 +24,8 @@ RequestSource source_of(Role role) {
 
 }  // namespace
 
-WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot,
-                       robot::StopRegister& button, Viewers& viewers, Time now)
+WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, StopRegister& button,
+                       Viewers& viewers, Time now)
     : museum_{museum},
       viewers_{viewers},
       database_{std::move(parts.store.database)},

@@ -57,7 +57,7 @@ struct WebServiceParts {
 class WebService {
  public:
   /// Museum, robot, button and viewers outlive it. @param button  this process's copy of the stop button
-  WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, robot::StopRegister& button,
+  WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, StopRegister& button,
              Viewers& viewers, Time now);
 
   // From the Web:

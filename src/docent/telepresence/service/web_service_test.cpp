@@ -69,7 +69,7 @@ class WebServiceTest : public testing::Test {
 
   museum::Museum museum_ = small_museum();
   Time now_ = time_from_seconds(100.0);
-  robot::StopRegister button_{"web", {}, now_};
+  StopRegister button_{"web", {}, now_};
   RobotEar robot_;
   ViewerEyes viewers_;
   std::vector<documents::OperationMessage> operations_;

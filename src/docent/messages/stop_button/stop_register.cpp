@@ -1,9 +1,9 @@
-#include "docent/robot/stop_register.h"
+#include "docent/messages/stop_button/stop_register.h"
 
 #include <charconv>
 #include <utility>
 
-namespace docent::robot {
+namespace docent {
 namespace {
 
 constexpr std::string_view kStopped = "stopped";
@@ -78,4 +78,4 @@ std::optional<StopRegister::Word> StopRegister::say(Time now) {
   return word;
 }
 
-}  // namespace docent::robot
+}  // namespace docent

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace docent {
+namespace docent::robot {
 
 /// Writes small files on a thread of its own, so that no disk holds up whoever has something more urgent to do. Of one
 /// file the newest content counts; each is written atomically and synced. The end waits until all is tried. Any thread.
@@ -33,4 +33,4 @@ class WriteBehind {
   std::thread thread_;  ///< last: it uses the rest
 };
 
-}  // namespace docent
+}  // namespace docent::robot

@@ -9,7 +9,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 
-namespace docent::robot {
+namespace docent {
 
 /// What is known of the stop button.
 struct StopState {
@@ -84,4 +84,4 @@ class StopRegister {
   Word last_said_;
 };
 
-}  // namespace docent::robot
+}  // namespace docent

@@ -1,4 +1,4 @@
-#include "docent/base/write_behind.h"
+#include "docent/robot/write_behind.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::robot {
 namespace {
 
 class WriteBehindTest : public testing::Test {
@@ -44,4 +44,4 @@ TEST_F(WriteBehindTest, SaysWhatCannotBeWrittenUntilItCan) {
 }
 
 }  // namespace
-}  // namespace docent
+}  // namespace docent::robot

@@ -1,10 +1,10 @@
-#include "docent/base/write_behind.h"
+#include "docent/robot/write_behind.h"
 
 #include <utility>
 
 #include "docent/base/files.h"
 
-namespace docent {
+namespace docent::robot {
 
 WriteBehind::WriteBehind() : thread_{[this] { work(); }} {}
 
@@ -47,4 +47,4 @@ void WriteBehind::work() {
   }
 }
 
-}  // namespace docent
+}  // namespace docent::robot

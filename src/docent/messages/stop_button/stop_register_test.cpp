@@ -1,4 +1,4 @@
-#include "docent/robot/stop_register.h"
+#include "docent/messages/stop_button/stop_register.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "docent/base/random.h"
 
-namespace docent::robot {
+namespace docent {
 namespace {
 
 Time at(double t) { return time_from_seconds(t); }
@@ -158,4 +158,4 @@ TEST(StopRegister, RepeatsAndTellsNewsAtOnce) {
 }
 
 }  // namespace
-}  // namespace docent::robot
+}  // namespace docent
