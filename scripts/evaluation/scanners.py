@@ -143,6 +143,6 @@ def protocol(simulations, options):
         judge(verdict, kind, museum, reports, made.get((ORDINARY, museum)))
     recordings(simulations, kinds[-2:] if options.slice else kinds, museums, minutes, seeds[:1] if options.slice else seeds[:2], verdict)
     if not options.no_crippled:
-        crippled(simulations, FAR[-1:] if options.slice else FAR, museums[-1], minutes, seeds, verdict)
+        crippled(simulations, FAR[-1:] if options.slice else FAR, MUSEUMS[-1], minutes, seeds, verdict)
     verdict.print()
     return verdict
