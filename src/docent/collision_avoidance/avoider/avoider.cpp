@@ -50,7 +50,9 @@ void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp) - seconds(sweep.late);
   if (was_overtaken(sensor, sweep.stamp)) return;
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
-  if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base);
+  constexpr Duration kCarriedOn = std::chrono::milliseconds{250};  // odometry that is so old tells of no motion
+  const bool is_motion_known = sweep.stamp - odometry_.newest_stamp() <= kCarriedOn;
+  if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base, is_motion_known);
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
 }
 

@@ -56,8 +56,9 @@ class InputWatches {
   }
   void hear_sweep(Time now, Time stamp, std::size_t laser) { sweeps_[laser].receive(now, stamp); }
   /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp, which is local time
-  [[nodiscard]] SensorSweep judge_sweep(std::size_t laser, SensorSweep sweep, const Pose2& odom_from_base) {
-    return scanners_[laser].judge(std::move(sweep), odom_from_base);
+  [[nodiscard]] SensorSweep judge_sweep(std::size_t laser, SensorSweep sweep, const Pose2& odom_from_base,
+                                        bool is_motion_known) {
+    return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known);
   }
   /// Where the robot believes to be, odometry's frame at `stamp`. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) {

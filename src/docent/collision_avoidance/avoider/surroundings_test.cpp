@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -99,7 +100,10 @@ class LongBody : public ::testing::Test {
     now = now + seconds(0.05);
     avoider->add_odometry(now, now, {odom_from_base, velocity});
     SensorSweep sweep{now, {}, -field * std::numbers::pi / 360.0, std::numbers::pi / 180.0, 0.02, 10.0, {}};
-    for (int i = 0; i < static_cast<int>(field); ++i) sweep.ranges.push_back(range(Angle::degrees(i - 0.5 * field)));
+    for (int i = 0; i < static_cast<int>(field); ++i) {
+      noise = noise * 1664525U + 1013904223U;
+      sweep.ranges.push_back(range(Angle::degrees(i - 0.5 * field)) - 0.001F * static_cast<float>(noise >> 29U));
+    }
     avoider->add_sweep(now, 0, sweep);
     VirtualSweep nothing{now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)};
     avoider->add_virtual(now, nothing);
@@ -115,12 +119,13 @@ class LongBody : public ::testing::Test {
   Time now = time_from_seconds(10.0);
   Pose2 odom_from_base;
   Velocity velocity;
+  std::uint32_t noise = 1;  ///< no two sweeps of a laser are the same
 };
 
 TEST_F(LongBody, BrakesATurnForWhatComesBesideIt) {
   target.mode = AvoiderTarget::Mode::turn;
   target.heading = Angle::degrees(170);
-  const auto nothing = [](Angle) { return 10.0F; };
+  const auto nothing = [](Angle) { return 9.0F; };
   for (int i = 0; i < 20; ++i) {
     cycle(nothing);
     if (i % 5 == 0) (void)avoider->decide(now);
@@ -128,7 +133,7 @@ TEST_F(LongBody, BrakesATurnForWhatComesBesideIt) {
   }
   ASSERT_GT(avoider->command().angular, 0.5);
   const auto post = [](Angle bearing) {  // just left of the front left corner, which turns to it
-    return std::abs(bearing.degrees() - 45.0) < 3.0 ? 0.45F : 10.0F;
+    return std::abs(bearing.degrees() - 45.0) < 3.0 ? 0.45F : 9.0F;
   };
   for (int i = 0; i < 2; ++i) cycle(post);
   const auto decision = avoider->reflex(now);
@@ -143,7 +148,7 @@ TEST_F(LongBody, DoesNotTurnIntoWhatNothingHasSeen) {
     target.mode = AvoiderTarget::Mode::turn;
     target.heading = Angle::degrees(170);
     for (int i = 0; i < 20; ++i) {
-      cycle([](Angle) { return 10.0F; }, field);
+      cycle([](Angle) { return 9.0F; }, field);
       if (i == 19) (void)avoider->decide(now);
     }
     return avoider->command().angular;
@@ -154,7 +159,7 @@ TEST_F(LongBody, DoesNotTurnIntoWhatNothingHasSeen) {
 
 TEST_F(LongBody, WhatTouchesItOrCannotBeSeenLiesAtItsEdge) {
   const auto blind_to_the_left = [](Angle bearing) {
-    return std::abs(bearing.degrees() - 90.0) < 10.0 ? std::numeric_limits<float>::quiet_NaN() : 10.0F;
+    return std::abs(bearing.degrees() - 90.0) < 10.0 ? std::numeric_limits<float>::quiet_NaN() : 9.0F;
   };
   cycle(blind_to_the_left);
   EXPECT_NEAR(avoider->decide(now).nearest_real, 0.08, 0.01) << "the margin, from its side and not from its radius";
@@ -173,7 +178,7 @@ TEST_F(LongBody, SlowsForWhatIsNearItsEdgeNotItsRadius) {
   // A wall 0.5 m beside the middle: 0.3 m from the side, but inside the radius.
   const auto wall = [](Angle bearing) {
     const double aside = std::sin(bearing.radians());
-    return aside > 0.11 ? static_cast<float>(0.5 / aside) : 10.0F;
+    return aside > 0.11 ? static_cast<float>(0.5 / aside) : 9.0F;
   };
   for (int i = 0; i < 4; ++i) cycle(wall);
   const auto decision = avoider->decide(now);

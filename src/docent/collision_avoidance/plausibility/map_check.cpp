@@ -62,7 +62,7 @@ bool MapCheck::is_wrong_place(const SweepView& view, const Pose2& map_from_senso
        {-params_.off_turn, -0.5 * params_.off_turn, 0.0, 0.5 * params_.off_turn, params_.off_turn}) {
     for (double x = -params_.off; x <= params_.off; x += params_.off_step) {
       for (double y = -params_.off; y <= params_.off; y += params_.off_step) {
-        expect_at(view, map_from_sensor * Pose2{x, y, Angle::radians(turn)}, params_.every, expected);
+        expect_at(view, map_from_sensor * Pose2{x, y, Angle::radians(turn)}, 3 * params_.every, expected);
         const RangeLaw there = find_law(expected, view, params_.law);
         if (there.compared > 0 && there.is_as_expected(needed)) return true;
       }
@@ -76,7 +76,7 @@ std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
   if (view.stamp - compared_ < seconds(params_.between)) return std::nullopt;
   compared_ = view.stamp;
   const Pose2 map_from_sensor = *map_from_odom_ * view.odom_from_sensor;
-  expect_at(view, map_from_sensor, 1, expected_);
+  expect_at(view, map_from_sensor, params_.every, expected_);
   const RangeLaw law = find_law(expected_, view, params_.law);
   Finding finding;
   finding.is_known = true;

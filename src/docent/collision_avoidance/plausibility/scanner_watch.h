@@ -25,7 +25,6 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
-  std::size_t samples = 90;       ///< of a sweep: all comparisons are a few of these
   double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
   double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
@@ -60,7 +59,8 @@ class ScannerWatch {
                const ScannerWatchParams& params = {});
 
   /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp
-  [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base);
+  /// @param is_motion_known  odometry is as fresh as the sweep: else it is judged by itself alone
+  [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known = true);
   /// Where the robot believes to be. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) { map_.believe(stamp, map_from_odom, mass); }
 

@@ -28,16 +28,15 @@ SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::
   SweepView view;
   view.stamp = sweep.stamp;
   view.odom_from_sensor = odom_from_sensor;
-  const std::size_t middle = (stride - 1) / 2;  // of the beams that a sample stands for
-  view.first_bearing = sweep.first_bearing + static_cast<double>(middle) * sweep.bearing_step;
+  view.first_bearing = sweep.first_bearing + 0.5 * static_cast<double>(stride - 1) * sweep.bearing_step;
   view.bearing_step = static_cast<double>(stride) * sweep.bearing_step;
   view.min_range = sweep.min_range;
   view.max_range = sweep.max_range;
   const std::size_t samples = beams / stride;
   view.ranges.reserve(samples);
   for (std::size_t i = 0; i < samples; ++i) {
-    const double range = sweep.ranges[i * stride + middle];
-    view.ranges.push_back(sample_of(range, sweep.min_range, sweep.max_range));
+    const double middle = sweep.ranges[i * stride + (stride - 1) / 2];
+    view.ranges.push_back(sample_of(middle, sweep.min_range, sweep.max_range));
     if (view.met(i)) ++view.answers;
   }
   view.nearest.resize(samples);

@@ -90,8 +90,8 @@ class MotionModules : public ::testing::Test {
         for (const auto& wall : sides(walls)) {
           if (const auto hit = ray_distance(pose.position(), unit(bearing), wall)) range = std::min(range, *hit);
         }
-        // Never twice the same, as a real laser.
-        scan.ranges.push_back(static_cast<float>(range + 0.001 * ((++noise * 7) % 13)));
+        noise = noise * 1664525U + 1013904223U;  // never twice the same, as a real laser
+        scan.ranges.push_back(static_cast<float>(range + 0.001 * (noise >> 28U)));
       }
       if (front) spoil_scan(scan);
       if (!(front ? front_works : rear_works)) continue;
@@ -147,14 +147,14 @@ class MotionModules : public ::testing::Test {
   sensor_msgs::LaserScan virtual_scan;
   Pose2 pose;
   double speed = 0.0, turn_rate = 0.0;
-  int noise = 0, rear_sweeps = 0;
+  std::uint32_t noise = 1, rear_sweeps = 0;
   std::function<void(sensor_msgs::LaserScan&)> spoil_scan = [](auto&) {};  ///< done to what the front laser says
   std::function<void(sensor_msgs::Range&)> spoil_range = [](auto&) {};
   std::function<void(docent_msgs::Belief&)> spoil_belief = [](auto&) {};
   std::function<void(docent_msgs::Target&)> spoil_target = [](auto&) {};
   bool front_works = true, rear_works = true, sonars_work = true, localize_works = true, plan_works = true;
   double sees_late = 0.0, every_third_late = 0.0;  ///< [s]; the latter of the rear laser's sweeps
-  bool wants_inside = false;  ///< wants to go along +y, else along the hall's axis
+  bool wants_inside = false;                       ///< wants to go along +y, else along the hall's axis
   Polygon walls{{-2, -4}, {18, -4}, {18, 4}, {-2, 4}};
   std::unique_ptr<transport::Bus> avoid_bus, hazards_bus, robot_bus;
   std::unique_ptr<Module> avoid, hazards, robot;
