@@ -497,6 +497,9 @@ class TracksParams:
     most_heard: float
     search_way: float
     search_way_kept: float
+    search_way_calm: float
+    doubt_nats: float
+    usual_nats: float
     def __init__(self, **fields: Any) -> None: ...
 
 
