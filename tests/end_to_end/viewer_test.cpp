@@ -71,7 +71,8 @@ class Person {
   }
   [[nodiscard]] bool believes(const Pose2& pose, double within) {
     const auto now = belief();
-    return !now.hypotheses.empty() && distance({now.hypotheses[0].x, now.hypotheses[0].y}, pose.position()) < within;
+    return !now.hypotheses.empty() &&
+           distance(Point2{now.hypotheses[0].x, now.hypotheses[0].y}, pose.position()) < within;
   }
   void say(const Pose2& pose, const builtin_interfaces::Time& stamp, const std::string& frame = "map") {
     geometry_msgs::PoseWithCovarianceStamped message;
@@ -110,7 +111,7 @@ bool shows_one_of(const People& people, const visualization_msgs_msg_dds__Marker
     if (std::string{marker.header.frame_id} != "map" || marker.type != visualization_msgs::Marker::kCylinder) continue;
     EXPECT_EQ(marker.lifetime.sec, 1);
     for (const auto& visitor : people)
-      if (distance({visitor.x, visitor.y}, {marker.pose.position.x, marker.pose.position.y}) < 0.6) return true;
+      if (distance(Point2{visitor.x, visitor.y}, {marker.pose.position.x, marker.pose.position.y}) < 0.6) return true;
   }
   return false;
 }

@@ -100,7 +100,6 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          bus.publisher(topics::scan_topic(scanner.name)),
                          {},
                          {},
-                         {},
                          0,
                          {},
                          scanner.late});

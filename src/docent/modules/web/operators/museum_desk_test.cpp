@@ -27,7 +27,7 @@ TEST(MuseumDesk, TellsAllModulesToBeginAnewOnceTheAnswerIsOut) {
   const auto office = desk.office();
   EXPECT_FALSE(office->workshop.is_trial());
   EXPECT_FALSE(office->is_stopped());
-  desk.see({"", false, true, "ada", ""});
+  desk.see({"", false, true, "ada", 1, ""});
   EXPECT_TRUE(office->is_stopped());
   // As the desk of /api/v1 does, from its thread.
   std::thread{[&] { office->move(true); }}.join();
