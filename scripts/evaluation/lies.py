@@ -35,7 +35,7 @@ SAYS = {  # kind: what the reason must hold beside the scanner's name
 NEAR_KINDS = {"too_near", "blind_near"}
 ALARMS = sorted({word for words in SAYS.values() for word in words} | {"too short", "covers the"})
 MUSEUMS = ["bonn", "smithsonian"]
-SLICE_KINDS = ["units", "silent", "scaled"]
+SLICE_KINDS = ["units", "silent"]
 CRIPPLED_KINDS = ["units", "silent"]
 
 

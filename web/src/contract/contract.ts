@@ -67,7 +67,7 @@ export interface Scan {
   points: number[];
 }
 export interface Reason {
-  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'no_such_room' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease';
+  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'no_such_room' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease' | 'stop_unconfirmed' | 'another_stop';
   about: string;
 }
 export interface Avoid {
@@ -258,6 +258,7 @@ export interface OperationMessage {
   pressed: boolean;
   stopped: boolean;
   stopped_by: string;
+  stop_number: number;
   hours: string;
 }
 export interface ModuleState {
@@ -454,6 +455,7 @@ export interface StopMessage {
   type: 'stop';
   id: string;
   stopped: boolean;
+  number: number;
 }
 export interface SetHoursMessage {
   type: 'set_hours';
@@ -1236,6 +1238,7 @@ export const documents = {
       "holder": "string",
       "hours": "string",
       "pressed": "boolean",
+      "stop_number": "number",
       "stopped": "boolean",
       "stopped_by": "string"
     },
@@ -1362,7 +1365,9 @@ export const documents = {
           "obstacle_near",
           "stopped_by_hand",
           "steered_by_hand",
-          "no_lease"
+          "no_lease",
+          "stop_unconfirmed",
+          "another_stop"
         ]
       }
     },
@@ -1566,6 +1571,7 @@ export const documents = {
   "StopMessage": {
     "fields": {
       "id": "string",
+      "number": "number",
       "stopped": "boolean"
     },
     "maybe": {},

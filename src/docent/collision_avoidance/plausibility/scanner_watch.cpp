@@ -219,13 +219,26 @@ void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   for (const BeamRun& run : form_.too_near) hide_silent(run);
 }
 
+void ScannerWatch::judge_silence_alone(const SweepView& view) {
+  if (form_.has_wrong_units) return;
+  if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
+  judge_silence(view);
+  if (!form_.is_silent) before_ = view;
+  if (const auto found = map_.compare(view); found && found->is_known) {
+    map_said_ = view.stamp;
+    map_has_nothing_ = found->is_nothing_near;
+  }
+}
+
 SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known) {
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   base_from_sensor_ = sweep.base_from_sensor;
   newest_ = sweep.stamp;
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
-  if (!is_motion_known) {
+  if (!params_.compares) {
+    judge_silence_alone(view);
+  } else if (!is_motion_known) {
     motion_.forget();
     before_.reset();
     walls_.reset();

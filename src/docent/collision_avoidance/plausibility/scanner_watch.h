@@ -46,7 +46,10 @@ struct ScannerWatchParams {
   double walls_least_turn = 0.2;  ///< [rad] and at least so far, or
   double walls_least_way = 0.3;   ///< [m] at least so far: before, the same beams meet them
   double walls_patience = 0.25;   ///< [s] as if they had been seen so long ago: walls do not step aside
-  double ahead = 1.75;            ///< [rad] a scanner that looks so far from ahead does not see where it drives
+  /// What a sweep says is compared with the sweeps before, the motion and the map, beyond its form and its silence. Off
+  /// as long as one robot in twenty that is carried off blames its scanner.
+  bool compares = false;
+  double ahead = 1.75;  ///< [rad] a scanner that looks so far from ahead does not see where it drives
 };
 
 /// Judges every sweep of one scanner before anything else takes it for true: what no scanner in order says, what does
@@ -67,7 +70,7 @@ class ScannerWatch {
   /// What is wrong with the scanner; nullopt: nothing that is known of.
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Nothing has borne it out yet: neither motion nor the map.
-  [[nodiscard]] bool is_unproven() const { return !is_proven_; }
+  [[nodiscard]] bool is_unproven() const { return params_.compares && !is_proven_; }
   [[nodiscard]] double unproven_speed() const { return params_.unproven_speed; }
 
  private:
@@ -85,6 +88,7 @@ class ScannerWatch {
   void judge_onset(const SweepView& view);
   void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_by_map(const SweepView& view);
+  void judge_silence_alone(const SweepView& view);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
