@@ -599,6 +599,7 @@ class VirtualMeasurementParams:
     jointly: bool
     cell_padding: float
     max_impossible: float
+    doubt_sigmas: float
     def __init__(self, **fields: Any) -> None: ...
 
 

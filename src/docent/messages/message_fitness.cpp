@@ -140,6 +140,26 @@ MessageFault fault_of(const docent_msgs::Limits& limits) {
   return fault_of_fields(limits);
 }
 
+MessageFault fault_of(const docent_msgs::Calibration& calibration) {
+  constexpr double kLargestRobot = 5.0;  // [m]
+  constexpr double kMostDelay = 2.0;     // [s]
+  constexpr double kMostScale = 5.0;
+  if (const MessageFault fault = fault_of_fields(calibration)) return fault;
+  for (const docent_msgs::CalibratedMount& mount : calibration.mounts) {
+    if (!(std::abs(mount.x) <= kLargestRobot && std::abs(mount.y) <= kLargestRobot))
+      return {"mounts", "lie off the robot"};
+    if (!(std::abs(mount.heading) <= 4.0 * std::numbers::pi)) return {"mounts", "look nowhere"};
+    if (!(std::abs(mount.delay) <= kMostDelay)) return {"mounts", "have a delay that none has"};
+    if (!(mount.doubt_heading >= 0.0 && mount.doubt_heading <= std::numbers::pi && mount.doubt_position >= 0.0 &&
+          mount.doubt_position <= kLargestRobot))
+      return {"mounts", "have a doubt that is none"};
+  }
+  if (!(calibration.most_speed >= 0.0 && calibration.most_speed <= kFastest)) return {"most_speed", "is no speed"};
+  for (const double scale : {calibration.way_scale, calibration.turn_scale})
+    if (!(scale >= 1.0 / kMostScale && scale <= kMostScale)) return {"scale", "is that of no base"};
+  return {};
+}
+
 MessageFault fault_of(const docent_msgs::LiveMapUpdate& update) {
   if (const MessageFault fault = fault_of_fields(update)) return fault;
   constexpr std::int32_t kMostCells = 1000000;  // along a side

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "docent/messages/calibration_messages.h"
 #include "docent/messages/cdr.h"
 #include "docent/messages/localization_messages.h"
 #include "docent/messages/operation_messages.h"
@@ -67,6 +68,8 @@ struct MessageFault {
 [[nodiscard]] MessageFault fault_of(const docent_msgs::PersonBeams& beams);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::LiveMapUpdate& update);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::Limits& limits);
+/// Mounts on a robot, and scales of some base.
+[[nodiscard]] MessageFault fault_of(const docent_msgs::Calibration& calibration);
 /// Any other message: each number is one and not beyond `kMostAnything`, no list and no text is endless.
 template <Message T>
 [[nodiscard]] MessageFault fault_of(const T& message);

@@ -223,5 +223,21 @@ TEST(MessageFitness, NoTopicsMessagePassesWithANumberThatIsNone) {
   EXPECT_GT(refused, 500U);
 }
 
+TEST(MessageFitness, AMountLiesOnTheRobot) {
+  docent_msgs::Calibration calibration;
+  calibration.mounts.push_back({"front", 0.2, -0.1, 1.0, 0.15, 0.1, 0.05, false});
+  EXPECT_FALSE(fault_of(calibration));
+  for (const auto spoil : {+[](docent_msgs::Calibration& c) { c.mounts[0].x = 1e6; },
+                           +[](docent_msgs::Calibration& c) { c.mounts[0].heading = 100.0; },
+                           +[](docent_msgs::Calibration& c) { c.mounts[0].delay = -3.0; },
+                           +[](docent_msgs::Calibration& c) { c.mounts[0].doubt_position = -1.0; },
+                           +[](docent_msgs::Calibration& c) { c.most_speed = -1.0; },
+                           +[](docent_msgs::Calibration& c) { c.way_scale = 0.0; }}) {
+    docent_msgs::Calibration spoilt = calibration;
+    spoil(spoilt);
+    EXPECT_TRUE(fault_of(spoilt));
+  }
+}
+
 }  // namespace
 }  // namespace docent

@@ -86,7 +86,8 @@ std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
     SensorSweep sweep{now, {}, -std::numbers::pi, std::numbers::pi / 180.0, 0.02, 10.0, {}};
     for (int k = 0; k < 360; ++k) {
       const auto hit = ray_distance(odom_from_base.position(), unit(Angle::degrees(k - 180.0)), person, 0.22);
-      sweep.ranges.push_back(i >= 10 && hit ? static_cast<float>(*hit) : 9.0F);
+      sweep.ranges.push_back(i >= 10 && hit ? static_cast<float>(*hit)
+                                            : 9.0F - 0.001F * static_cast<float>((k + 7 * i) % 11));
     }
     avoider.add_sweep(now, 0, sweep);
     avoider.add_virtual(now, {now, -std::numbers::pi, std::numbers::pi / 90.0, 6.0, std::vector<float>(180, 6.0F)});
