@@ -141,7 +141,8 @@ def protocol(simulations, options):
     verdict = Verdict()
     for (kind, museum), reports in made.items():
         judge(verdict, kind, museum, reports, made.get((ORDINARY, museum)))
-    recordings(simulations, kinds[-1:] if options.slice else kinds, museums, minutes, seeds[:1] if options.slice else seeds[:2], verdict)
+    if not options.slice:
+        recordings(simulations, kinds, museums, minutes, seeds[:2], verdict)
     if not options.no_crippled:
         crippled(simulations, FAR[-1:] if options.slice else FAR, MUSEUMS[-1], minutes, seeds, verdict)
     verdict.print()

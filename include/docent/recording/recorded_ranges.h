@@ -10,6 +10,7 @@
 
 namespace docent::recording {
 
+/// When ranges cannot be metres of a laser in a building.
 struct RecordedRangesParams {
   double beyond = 8.0;       ///< of its own range_max: no driver states so little, so these are no metres
   double many = 0.1;         ///< of a laser's readings,
@@ -21,6 +22,7 @@ struct RecordedRangesParams {
 /// Whether the ranges of a recording can be those of a laser in a building, for each of its lasers.
 class RecordedRanges {
  public:
+  /// Nothing has been added yet.
   explicit RecordedRanges(const RecordedRangesParams& params = {}) : params_{params} {}
 
   /// One scan. @param laser  for a person: its topic or frame @param ranges  [m] as they were recorded

@@ -8,6 +8,8 @@
 namespace docent {
 namespace {
 
+constexpr float kOtherUnit = 8.0F;  // of the reach: no driver states so little
+
 std::string metres(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f m", value);
@@ -38,7 +40,9 @@ const DriverScan& ScanReader::read(const DriverScan& written) {
   const bool zero_is_nothing = zero() == ZeroMeans::nothing;
   const auto reach = static_cast<float>(scan_.max_range);
   for (float& range : ranges_) {
-    if (range >= reach || (range == 0.0F && zero_is_nothing)) range = reach;
+    // What lies so far beyond is no metre at all, and stays for those who look at units.
+    const bool is_other_unit = std::isfinite(range) && range > kOtherUnit * static_cast<float>(said_reach_);
+    if ((range >= reach && !is_other_unit) || (range == 0.0F && zero_is_nothing)) range = reach;
     if (!(range > 0.0F)) range = std::numeric_limits<float>::quiet_NaN();
   }
   scan_.ranges = ranges_;

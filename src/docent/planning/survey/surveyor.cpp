@@ -178,7 +178,8 @@ void Surveyor::keep_place(Time now) const {
 std::optional<Surveyor::Place> Surveyor::place() const {
   const auto here = frame_.map_from_base();
   if (!here) return std::nullopt;
-  const double sigma = std::clamp(map_.poses().spread().position, params_.least_sigma, params_.most_sigma);
+  const double spread = map_.poses().spread().position;  // no number where no poses fit together
+  const double sigma = spread <= params_.most_sigma ? std::max(spread, params_.least_sigma) : params_.most_sigma;
   return Place{{*here, sigma, params_.sigma_heading}, *frame_.odom_from_base()};
 }
 
