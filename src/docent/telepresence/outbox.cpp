@@ -1,7 +1,5 @@
 #include "docent/telepresence/outbox.h"
 
-#include <algorithm>
-
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/store/migrations.h"
 
@@ -20,45 +18,38 @@ constexpr Migration kTables[] = {
 
 Result<std::unique_ptr<Outbox>> Outbox::open(Database& database) {
   if (auto made = migrate(database, "outbox", kTables); !made) return tl::unexpected<Error>(made.error());
-  std::unique_ptr<Outbox> outbox{new Outbox{database}};
-  if (auto read = outbox->refresh(); !read) return tl::unexpected<Error>(read.error());
-  return outbox;
+  return std::unique_ptr<Outbox>{new Outbox{database}};
 }
 
-Result<void> Outbox::refresh() {
+Result<std::vector<docent_msgs::Request>> Outbox::pending() {
   auto answer = database_.run(
       "SELECT id, created, source, visitor, kind, target, viewpoint, language FROM outbox"
       " WHERE delivered = 0 ORDER BY created, id");
   if (!answer) return tl::unexpected<Error>(answer.error());
-  pending_.clear();
+  std::vector<docent_msgs::Request> pending;
   for (const Row& row : answer->rows) {
-    pending_.push_back({row.text(0), to_message(Time{row.number(1)}), row.text(2), row.text(3), row.text(4),
-                        row.text(5), static_cast<std::int32_t>(row.number(6)), row.text(7)});
+    pending.push_back({row.text(0), to_message(Time{row.number(1)}), row.text(2), row.text(3), row.text(4), row.text(5),
+                       static_cast<std::int32_t>(row.number(6)), row.text(7)});
   }
-  return {};
+  return pending;
 }
 
-Result<void> Outbox::put(const docent_msgs::Request& request) {
+Result<bool> Outbox::put(const docent_msgs::Request& request) {
   auto stored = database_.run(
       "INSERT INTO outbox (id, created, source, visitor, kind, target, viewpoint, language)"
       " VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (id) DO NOTHING",
       {request.id, from_message(request.stamp).nanoseconds, request.source, request.visitor, request.kind,
        request.target, std::int64_t{request.viewpoint}, request.language});
   if (!stored) return fail("the request could not be stored: " + stored.error().message);
-  if (stored->changed == 1) pending_.push_back(request);
-  return {};
+  return stored->changed == 1;
 }
 
-void Outbox::delivered(const std::string& id) {
-  const auto removed = std::erase_if(pending_, [&](const auto& request) { return request.id == id; });
-  // Should it fail, the request is resent after a restart, and the board knows it already: harmless.
-  if (removed > 0) (void)database_.run("UPDATE outbox SET delivered = 1 WHERE id = $1", {id});
+Result<void> Outbox::delivered(const std::string& id) {
+  return done(database_.run("UPDATE outbox SET delivered = 1 WHERE id = $1", {id}));
 }
 
-void Outbox::forget_before(Time time) {
-  std::erase_if(pending_, [&](const auto& request) { return from_message(request.stamp) < time; });
-  // Should it fail, the table only stays larger until the next time.
-  (void)database_.run("DELETE FROM outbox WHERE created < $1", {time.nanoseconds});
+Result<void> Outbox::forget_before(Time time) {
+  return done(database_.run("DELETE FROM outbox WHERE created < $1", {time.nanoseconds}));
 }
 
 }  // namespace docent::telepresence

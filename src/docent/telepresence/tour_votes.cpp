@@ -15,11 +15,6 @@ constexpr Migration kVoteTables[] = {
 };
 constexpr const char* kOpenRound = "(SELECT round FROM vote_rounds WHERE is_open = 1)";
 
-Result<void> done(const Result<QueryResult>& answer) {
-  if (!answer) return tl::unexpected<Error>(answer.error());
-  return {};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<TourVotes>> TourVotes::open(Database& database) {
@@ -62,10 +57,10 @@ Result<void> TourVotes::close(const std::string& round, const std::string& next,
   });
 }
 
-void TourVotes::forget_before(Time time) {
-  // Should it fail, the tables only stay larger until the next time.
-  (void)database_.run("DELETE FROM votes WHERE cast_at < $1", {time.nanoseconds});
-  (void)database_.run("DELETE FROM vote_rounds WHERE is_open IS NULL AND begun < $1", {time.nanoseconds});
+Result<void> TourVotes::forget_before(Time time) {
+  if (auto votes = done(database_.run("DELETE FROM votes WHERE cast_at < $1", {time.nanoseconds})); !votes)
+    return votes;
+  return done(database_.run("DELETE FROM vote_rounds WHERE is_open IS NULL AND begun < $1", {time.nanoseconds}));
 }
 
 }  // namespace docent::telepresence

@@ -35,7 +35,7 @@ class TourVotes {
   [[nodiscard]] Result<void> close(const std::string& round, const std::string& next, Time now);
   /// Begins the first round where there is none.
   [[nodiscard]] Result<void> begin(const std::string& round, Time now);
-  void forget_before(Time time);
+  [[nodiscard]] Result<void> forget_before(Time time);
 
  private:
   explicit TourVotes(Database& database) : database_{database} {}

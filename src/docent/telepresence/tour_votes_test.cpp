@@ -53,7 +53,7 @@ TEST_F(Voting, IsForgottenWhenOld) {
   ASSERT_TRUE(votes_->vote("ada", "space", time_from_seconds(10)));
   ASSERT_TRUE(votes_->close("round-1", "round-2", time_from_seconds(20)));
   ASSERT_TRUE(votes_->vote("ada", "space", time_from_seconds(30)));
-  votes_->forget_before(time_from_seconds(25));
+  ASSERT_TRUE(votes_->forget_before(time_from_seconds(25)));
   EXPECT_EQ(tally().counts, (Counts{{"space", 1}}));
   EXPECT_EQ(database_->run("SELECT count(*) FROM votes")->rows.at(0).number(0), 1);
   EXPECT_EQ(database_->run("SELECT count(*) FROM vote_rounds")->rows.at(0).number(0), 1);

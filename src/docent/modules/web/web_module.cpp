@@ -67,6 +67,7 @@ telepresence::WebServiceParts service_parts(const ModuleContext& context, const 
   const interaction::SharedSound horn = interaction::horn_sound();
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);
+  parts.post = [&bus = context.bus](std::function<void()> work) { bus.post(std::move(work)); };
   parts.is_shared = telepresence::Database::is_shared(params.database);
   parts.max_open_requests = static_cast<std::size_t>(params.max_open_requests);
   parts.forgets_after = seconds(params.forget_hours * 3600.0);

@@ -17,11 +17,6 @@ constexpr Migration kTables[] = {
      " PRIMARY KEY (person, address))"},
 };
 
-Result<void> done(const Result<QueryResult>& answer) {
-  if (!answer) return tl::unexpected<Error>(answer.error());
-  return {};
-}
-
 std::string id_of(const std::string& account) { return "account:" + account; }
 
 Result<void> check_password(const std::string& password) {

@@ -35,11 +35,11 @@ std::optional<Counted> counted_of(const std::string& source) {
 }  // namespace
 
 void CountDesk::arrived(const std::string& address) {
-  if (addresses_.size() < kMostAddresses) addresses_.insert(address);
+  if (counting_.addresses.size() < kMostAddresses) counting_.addresses.insert(address);
 }
 
 void CountDesk::asked(std::uint64_t accesses) {
-  own_[Counted::accesses] += static_cast<double>(accesses - std::min(accesses, accesses_));
+  counting_.own[Counted::accesses] += static_cast<double>(accesses - std::min(accesses, accesses_));
   accesses_ = accesses;
 }
 
@@ -52,20 +52,20 @@ void CountDesk::see(const nav_msgs::Odometry& odometry) {
   moved_ = stamp;
   odom_from_base_ = now;
   if (!(passed > 0.0 && passed < kLongestGap) || way > kFastest * passed || speed > kFastest) return;
-  robot_[Counted::uptime_s] += passed;
+  counting_.robot[Counted::uptime_s] += passed;
   if (speed < kMoves) return;
-  robot_[Counted::travel_s] += passed;
-  robot_[Counted::distance_m] += way;
-  robot_[Counted::max_speed] = std::max(robot_[Counted::max_speed], speed);
+  counting_.robot[Counted::travel_s] += passed;
+  counting_.robot[Counted::distance_m] += way;
+  counting_.robot[Counted::max_speed] = std::max(counting_.robot[Counted::max_speed], speed);
 }
 
 void CountDesk::see(const docent_msgs::Event& event) {
   const auto kind = parse<EventKind>(event.kind);
-  if (kind == EventKind::tour_completed) robot_[Counted::tours] += 1.0;
-  if (kind == EventKind::point_reached) robot_[Counted::points] += 1.0;
+  if (kind == EventKind::tour_completed) counting_.robot[Counted::tours] += 1.0;
+  if (kind == EventKind::point_reached) counting_.robot[Counted::points] += 1.0;
   if (kind != EventKind::explained) return;
-  robot_[Counted::exhibits] += 1.0;
-  robot_[Counted::visitors] += people_near_;
+  counting_.robot[Counted::exhibits] += 1.0;
+  counting_.robot[Counted::visitors] += people_near_;
 }
 
 void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
@@ -83,35 +83,42 @@ void CountDesk::see(const docent_msgs::RequestBoard& board) {
     is_over = known != requests_.end() && known->second;
     // What the board held before this program began was counted by the one before.
     if (known == requests_.end() && from_message(entry.created) >= begun_)
-      if (const auto source = counted_of(entry.request.source)) robot_[*source] += 1.0;
+      if (const auto source = counted_of(entry.request.source)) counting_.robot[*source] += 1.0;
     if (is_over || from_message(entry.changed) < begun_) continue;
     const auto status = parse<RequestStatus>(entry.state);
-    if (status == RequestStatus::fulfilled) robot_[Counted::fulfilled] += 1.0;
-    if (status == RequestStatus::failed) robot_[Counted::failed] += 1.0;
+    if (status == RequestStatus::fulfilled) counting_.robot[Counted::fulfilled] += 1.0;
+    if (status == RequestStatus::failed) counting_.robot[Counted::failed] += 1.0;
     is_over = status == RequestStatus::fulfilled || status == RequestStatus::failed;
   }
   requests_ = std::move(requests);
 }
 
 void CountDesk::store(const std::string& mode, Time now) {
-  fault_.clear();
-  const auto keep = [&](Counts& counts) {
-    if (auto stored = statistics_->add(now, mode, counts)) {
-      counts.clear();
-    } else {
-      fault_ = stored.error().message;
-    }
-  };
-  keep(own_);
-  if (auto stored = statistics_->add_web_visitors(now, mode, addresses_)) {
-    addresses_.clear();
-  } else {
-    fault_ = stored.error().message;
-  }
+  const auto counted = std::make_shared<Counting>(std::exchange(counting_, {}));
+  queue_.put([this, counted, mode, now] { return store(*counted, mode, now); },
+             [this, counted](const Result<void>& stored) {
+               fault_ = stored ? "" : stored.error().message;
+               if (!stored) take_back(std::move(*counted));
+             },
+             now);
+}
+
+Result<void> CountDesk::store(const Counting& counted, const std::string& mode, Time now) {
+  if (auto own = statistics_->add(now, mode, counted.own); !own) return own;
+  if (auto visitors = statistics_->add_web_visitors(now, mode, counted.addresses); !visitors) return visitors;
   const auto is_ours = statistics_->may_count_robot(gateway_, now);
-  if (!is_ours) fault_ = is_ours.error().message;
-  if (is_ours && *is_ours) keep(robot_);
-  if (is_ours && !*is_ours) robot_.clear();  // another gateway counts it
+  if (!is_ours) return tl::unexpected<Error>(is_ours.error());
+  return *is_ours ? statistics_->add(now, mode, counted.robot) : Result<void>{};  // else another gateway counts it
+}
+
+void CountDesk::take_back(Counting counted) {
+  const auto add = [](Counts& counts, const Counts& more) {
+    for (const auto& [what, amount] : more)
+      counts[what] = what == Counted::max_speed ? std::max(counts[what], amount) : counts[what] + amount;
+  };
+  add(counting_.own, counted.own);
+  add(counting_.robot, counted.robot);
+  for (const std::string& address : counted.addresses) arrived(address);
 }
 
 }  // namespace docent::telepresence

@@ -13,18 +13,20 @@
 #include "docent/messages/request_messages.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/telepresence/counting/statistics.h"
+#include "docent/telepresence/store/store_queue.h"
 
 namespace docent::telepresence {
 
 /// Counts what a museum wants to know afterwards, and stores it every ten seconds.
 class CountDesk {
  public:
+  /// The queue outlives it; the statistics are used on the queue's thread, until that has ended.
   /// @param gateway  a name of its own
-  CountDesk(std::unique_ptr<Statistics> statistics, std::string gateway, Time now)
-      : statistics_{std::move(statistics)}, gateway_{std::move(gateway)}, begun_{now} {}
+  CountDesk(StoreQueue& queue, std::unique_ptr<Statistics> statistics, std::string gateway, Time now)
+      : queue_{queue}, statistics_{std::move(statistics)}, gateway_{std::move(gateway)}, begun_{now} {}
 
   void arrived(const std::string& address);
-  void voted() { own_[Counted::votes] += 1.0; }
+  void voted() { counting_.own[Counted::votes] += 1.0; }
   /// All that the server was ever asked.
   void asked(std::uint64_t accesses);
   void see(const docent_msgs::RequestBoard& board);
@@ -37,12 +39,21 @@ class CountDesk {
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
+  /// What was counted between two stores.
+  struct Counting {
+    Counts own;    ///< what came through this gateway
+    Counts robot;  ///< what is of the robot, should this gateway be the one that counts it
+    std::set<std::string> addresses;
+  };
+  [[nodiscard]] Result<void> store(const Counting& counted, const std::string& mode, Time now);
+  /// It was not stored: it is tried again with what comes.
+  void take_back(Counting counted);
+
+  StoreQueue& queue_;
   std::unique_ptr<Statistics> statistics_;
   const std::string gateway_;
   const Time begun_;
-  Counts own_;    ///< not yet stored: what came through this gateway
-  Counts robot_;  ///< likewise: what is of the robot, should this gateway be the one that counts it
-  std::set<std::string> addresses_;
+  Counting counting_;  ///< not yet on its way to the store
   std::uint64_t accesses_ = 0;            ///< that are counted already
   std::map<std::string, bool> requests_;  ///< on the board: whether their end is counted
   std::optional<Time> moved_;             ///< stamp of the newest odometry

@@ -12,11 +12,12 @@ class CountDeskTest : public testing::Test {
  protected:
   CountDeskTest() {
     database_ = std::move(*Database::open(":memory:"));
+    queue_ = std::make_unique<StoreQueue>(*database_, StoreQueue::Post{});
     desk_ = make("one");
     desks_ = {desk_.get()};
   }
   std::unique_ptr<CountDesk> make(const std::string& gateway) {
-    return std::make_unique<CountDesk>(std::move(*Statistics::open(*database_)), gateway, now_);
+    return std::make_unique<CountDesk>(*queue_, std::move(*Statistics::open(*database_)), gateway, now_);
   }
   DayCount day(const std::string& mode = "open") {
     auto statistics = std::move(*Statistics::open(*database_));
@@ -55,6 +56,7 @@ class CountDeskTest : public testing::Test {
 
   Time now_ = time_from_seconds(1000.0);
   std::unique_ptr<Database> database_;
+  std::unique_ptr<StoreQueue> queue_;
   std::unique_ptr<CountDesk> desk_;
   std::vector<CountDesk*> desks_;  ///< of all gateways
   double x_ = 0.0;
@@ -121,6 +123,24 @@ TEST_F(CountDeskTest, CountsWhoComesByTheWeb) {
   EXPECT_EQ(day("web").web_visitors, 2);
   EXPECT_EQ(day("web").counts.at(Counted::accesses), 130.0);
   EXPECT_EQ(day("web").counts.at(Counted::votes), 1.0);
+}
+
+TEST_F(CountDeskTest, WhatCouldNotBeStoredIsStoredWithWhatComes) {
+  drive(10.0, 0.5);
+  desk_->arrived("192.0.2.1");
+  desk_->voted();
+  ASSERT_TRUE(database_->run_script("ALTER TABLE robot_counter RENAME TO elsewhere"));
+  desk_->store("open", now_);
+  EXPECT_NE(desk_->fault(), "");
+  EXPECT_TRUE(day().counts.empty()) << "all of it, or nothing";
+  ASSERT_TRUE(database_->run_script("ALTER TABLE elsewhere RENAME TO robot_counter"));
+  desk_->voted();
+  desk_->store("open", now_);
+  EXPECT_EQ(desk_->fault(), "");
+  EXPECT_NEAR(day().counts.at(Counted::distance_m), 5.0, 0.1);
+  EXPECT_NEAR(day().counts.at(Counted::max_speed), 0.5, 1e-9);
+  EXPECT_EQ(day().counts.at(Counted::votes), 2.0);
+  EXPECT_EQ(day().web_visitors, 1);
 }
 
 TEST_F(CountDeskTest, TwoGatewaysCountTheRobotOnce) {

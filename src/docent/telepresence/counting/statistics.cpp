@@ -19,11 +19,6 @@ constexpr Migration kTables[] = {
      "CREATE TABLE robot_counter (one BIGINT PRIMARY KEY, gateway TEXT NOT NULL, ends BIGINT NOT NULL)"},
 };
 
-Result<void> done(const Result<QueryResult>& answer) {
-  if (!answer) return tl::unexpected<Error>(answer.error());
-  return {};
-}
-
 }  // namespace
 
 std::string day_of(Time time) {

@@ -34,11 +34,6 @@ Result<std::vector<Post>> posts_of(const Result<QueryResult>& rows) {
   return posts;
 }
 
-Result<void> done(const Result<QueryResult>& answer) {
-  if (!answer) return tl::unexpected<Error>(answer.error());
-  return {};
-}
-
 }  // namespace
 
 Result<void> ForumParams::validate() const {

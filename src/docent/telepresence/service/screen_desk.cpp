@@ -6,23 +6,25 @@
 
 namespace docent::telepresence {
 
-ScreenDesk::ScreenDesk(RobotLink& robot, Means means, Time now) : robot_{robot}, means_{std::move(means)} {
+ScreenDesk::ScreenDesk(RobotLink& robot, StoreQueue& queue, Means means, Time now)
+    : robot_{robot}, queue_{queue}, means_{std::move(means)} {
   robot_.tell(docent_msgs::ButtonLamps{{to_message(now), ""}, {}});
 }
 
-std::optional<Reason> ScreenDesk::take(const ClientMessage& message, std::optional<MissionPhase> phase, Time now) {
+void ScreenDesk::take(const ClientMessage& message, std::optional<MissionPhase> phase, Time now, Answer answer) {
   if (const auto* lamps = std::get_if<LampsMessage>(&message)) {
     heard_ = now;
     light(lamps->lit, now);
-    return Reason{};
+  } else if (const auto* given = std::get_if<AnswerMessage>(&message)) {
+    queue_.put([this, given = *given, now] { return means_.keep_answer(given, now); },
+               [this, id = given->id, answer = std::move(answer)](const Result<void>& kept) {
+                 fault_ = kept ? "" : kept.error().message;
+                 answer(id, kept ? Reason{} : Reason{ReasonWord::not_stored});
+               },
+               now);
+  } else if (const auto* wanted = std::get_if<HelpMessage>(&message)) {
+    answer(wanted->id, help(*wanted, phase));
   }
-  if (const auto* answer = std::get_if<AnswerMessage>(&message)) {
-    const auto kept = means_.keep_answer(*answer, now);
-    fault_ = kept ? "" : kept.error().message;
-    return kept ? Reason{} : ReasonWord::not_stored;
-  }
-  if (const auto* wanted = std::get_if<HelpMessage>(&message)) return help(*wanted, phase);
-  return std::nullopt;
 }
 
 Reason ScreenDesk::help(const HelpMessage& message, std::optional<MissionPhase> phase) {

@@ -18,19 +18,31 @@ class VoteDeskTest : public testing::Test {
  protected:
   void SetUp() override {
     database_ = std::move(*Database::open(":memory:"));
-    desk_ = std::make_unique<VoteDesk>(robot_, museum_, std::move(*TourVotes::open(*database_)), 1, now_);
+    queue_ = std::make_unique<StoreQueue>(*database_, StoreQueue::Post{});
+    desk_ = std::make_unique<VoteDesk>(
+        robot_, *queue_, museum_, std::move(*TourVotes::open(*database_)), 1,
+        [this](std::string text) { shown_ = std::move(text); }, now_);
   }
-  Reason vote(const std::string& voter, const std::string& tour) { return desk_->take({"id", voter, tour}, now_); }
+  Reason vote(const std::string& voter, const std::string& tour) {
+    std::optional<Reason> answered;
+    desk_->take({"id", voter, tour}, now_, [&](const Reason& why_not) { answered = why_not; });
+    EXPECT_TRUE(answered);
+    return answered.value_or(ReasonWord::too_fast);
+  }
   std::optional<std::string> look() {
     now_ = now_ + seconds(1);
-    return desk_->look(now_);
+    shown_.reset();
+    desk_->look(now_);
+    return shown_;
   }
 
   museum::Museum museum_ = museum_with_tours();
   Time now_;
   RobotEar robot_;
   std::unique_ptr<Database> database_;
+  std::unique_ptr<StoreQueue> queue_;
   std::unique_ptr<VoteDesk> desk_;
+  std::optional<std::string> shown_;
 };
 
 TEST_F(VoteDeskTest, TellsTheRobotHowTheVotesStand) {

@@ -29,68 +29,72 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
     : museum_{museum},
       viewers_{viewers},
       database_{std::move(parts.store.database)},
+      queue_{*database_, std::move(parts.post)},
       max_open_requests_{parts.max_open_requests},
       forgets_after_{parts.forgets_after},
       horn_{std::move(parts.horn)},
       operated_{std::move(parts.operated)},
-      wishes_{robot, std::move(parts.store.outbox), parts.is_shared},
+      wishes_{robot, queue_, std::move(parts.store.outbox), std::move(parts.store.pending), parts.is_shared},
       answers_{robot},
-      screen_{robot, std::move(parts.screen), now},
-      votes_{robot, museum, std::move(parts.store.votes), parts.seed, now},
+      screen_{robot, queue_, std::move(parts.screen), now},
+      votes_{robot,
+             queue_,
+             museum,
+             std::move(parts.store.votes),
+             parts.seed,
+             [this](std::string text) { viewers_.show(slots::kVotes, std::move(text)); },
+             now},
       operator_{robot, button, std::move(parts.note)},
-      counts_{std::move(parts.store.statistics), std::move(parts.gateway), now} {}
+      counts_{queue_, std::move(parts.store.statistics), std::move(parts.gateway), now} {}
 
 void WebService::take(const Caller& caller, const ClientMessage& message, Time now) {
   const ViewerId viewer = caller.id;
-  const RequestSource source = source_of(caller.role);
   if (operator_.take(caller, message, now)) {
     show_operation();
     return answer_operators(now);
   }
-  if (const auto* request = std::get_if<RequestMessage>(&message))
-    return answer(viewer, request->id, take_request(*request, source, now));
-  if (const auto* cancel = std::get_if<CancelMessage>(&message))
-    return answer(viewer, cancel->id, take_cancel(*cancel, source, now));
+  if (const auto* request = std::get_if<RequestMessage>(&message)) return take_request(caller, *request, now);
+  if (const auto* cancel = std::get_if<CancelMessage>(&message)) return take_cancel(caller, *cancel, now);
+  if (const auto* vote = std::get_if<VoteMessage>(&message)) return take_vote(caller, *vote, now);
   if (const auto* choice = std::get_if<ChoiceMessage>(&message))
-    return answer(viewer, choice->id, answers_.take(*choice, source));
-  if (const auto* vote = std::get_if<VoteMessage>(&message)) return answer(viewer, vote->id, take_vote(*vote, now));
-  take_of_screen(viewer, message, now);
+    return answer(viewer, choice->id, answers_.take(*choice, source_of(caller.role)));
+  screen_.take(message, phase_, now,
+               [this, viewer](const std::string& id, const Reason& why_not) { answer(viewer, id, why_not); });
 }
 
-Reason WebService::take_request(const RequestMessage& message, RequestSource source, Time now) {
-  if (wishes_.waiting() >= max_open_requests_) return ReasonWord::too_many_wait;
-  if (const Reason why_not = why_not_in(museum_, message); !why_not.is_none()) return why_not;
+std::function<void(const Reason&)> WebService::answer_for(ViewerId viewer, std::string id) {
+  return [this, viewer, id = std::move(id)](const Reason& why_not) { answer(viewer, id, why_not); };
+}
+
+void WebService::take_request(const Caller& caller, const RequestMessage& message, Time now) {
+  if (wishes_.waiting() >= max_open_requests_) return answer(caller.id, message.id, ReasonWord::too_many_wait);
+  if (const Reason why_not = why_not_in(museum_, message); !why_not.is_none())
+    return answer(caller.id, message.id, why_not);
   docent_msgs::Request wish;
   wish.id = message.id;
-  wish.source = to_text(source);
+  wish.source = to_text(source_of(caller.role));
   wish.visitor = message.name;
   wish.kind = to_text(message.kind);
   wish.target = message.target;
   wish.viewpoint = message.viewpoint;
   wish.language = message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
-  return wishes_.take(std::move(wish), now);
+  wishes_.take(std::move(wish), now, answer_for(caller.id, message.id));
 }
 
-Reason WebService::take_cancel(const CancelMessage& message, RequestSource source, Time now) {
+void WebService::take_cancel(const Caller& caller, const CancelMessage& message, Time now) {
   docent_msgs::Request wish;
   wish.id = message.id;
-  wish.source = to_text(source);
+  wish.source = to_text(source_of(caller.role));
   wish.kind = to_text(RequestKind::cancel);
   wish.target = message.request;
-  return wishes_.take(std::move(wish), now);
+  wishes_.take(std::move(wish), now, answer_for(caller.id, message.id));
 }
 
-Reason WebService::take_vote(const VoteMessage& message, Time now) {
-  const Reason why_not = votes_.take(message, now);
-  if (why_not.is_none()) counts_.voted();
-  return why_not;
-}
-
-void WebService::take_of_screen(ViewerId viewer, const ClientMessage& message, Time now) {
-  const auto done = screen_.take(message, phase_, now);
-  if (!done) return;
-  if (const auto* help = std::get_if<HelpMessage>(&message)) answer(viewer, help->id, *done);
-  if (const auto* poll = std::get_if<AnswerMessage>(&message)) answer(viewer, poll->id, *done);
+void WebService::take_vote(const Caller& caller, const VoteMessage& message, Time now) {
+  votes_.take(message, now, [this, viewer = caller.id, id = message.id](const Reason& why_not) {
+    if (why_not.is_none()) counts_.voted();
+    answer(viewer, id, why_not);
+  });
 }
 
 void WebService::answer(ViewerId viewer, const std::string& id, const Reason& why_not) {
@@ -133,7 +137,7 @@ void WebService::see(const docent_msgs::Expression& expression) {
 }
 
 void WebService::see(const docent_msgs::RequestBoard& board, Time now) {
-  wishes_.see(board);
+  wishes_.see(board, now);
   votes_.see(board, now);
   counts_.see(board);
   viewers_.show(slots::kBoard, encode_board(board));
@@ -152,8 +156,9 @@ void WebService::press(int number, Time now) {
 void WebService::look(const PresentHours& hours, std::size_t viewers, Time now) {
   viewers_.show(slots::kHealth, health_.show(viewers, now));
   show_if_new(Kept::hours, slots::kHours, encode_hours(hours.mode, hours.is_open));
-  if (auto votes = votes_.look(now)) viewers_.show(slots::kVotes, std::move(*votes));
+  votes_.look(now);
   screen_.look(now);
+  queue_.look(now);
 }
 
 void WebService::resend(Time now) {
@@ -173,8 +178,8 @@ void WebService::store_counts(const PresentHours& hours, std::uint64_t accesses,
 }
 
 void WebService::forget_old(Time now) {
-  wishes_.forget_before(now - forgets_after_);
-  votes_.forget_before(now - forgets_after_);
+  wishes_.forget_before(now - forgets_after_, now);
+  votes_.forget_before(now - forgets_after_, now);
 }
 
 std::string WebService::fault() const {

@@ -20,6 +20,7 @@
 #include "docent/telepresence/service/vote_desk.h"
 #include "docent/telepresence/service/web_store.h"
 #include "docent/telepresence/service/wish_desk.h"
+#include "docent/telepresence/store/store_queue.h"
 #include "docent/telepresence/views/health_view.h"
 
 namespace docent::telepresence {
@@ -39,6 +40,7 @@ struct HornSound {
 /// What a Web service is made with.
 struct WebServiceParts {
   WebStore store;
+  StoreQueue::Post post;            ///< see StoreQueue; empty: what is stored is stored at once
   bool is_shared = false;           ///< other gateways write into the same database
   std::size_t max_open_requests{};  ///< of everybody together; more are refused
   Duration forgets_after{};         ///< then a request is given up
@@ -52,13 +54,17 @@ struct WebServiceParts {
 };
 
 /// All that people on the Web may ask for, and what they are shown of what became of it. Each message of theirs goes to
-/// the desk that it is for, and they are answered; what the robot says of itself is shown, what has changed only. One
-/// thread, but for `health_document`.
+/// the desk that it is for, and they are answered; what the robot says of itself is shown, what has changed only.
+/// Whatever waits for a disk waits on a thread of its own, and nothing of operators does. One thread, but for
+/// `health_document`.
 class WebService {
  public:
   /// Museum, robot, button and viewers outlive it. @param button  this process's copy of the stop button
   WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, StopRegister& button,
              Viewers& viewers, Time now);
+  WebService(const WebService&) = delete;
+  WebService& operator=(const WebService&) = delete;
+  ~WebService() { queue_.finish(); }  ///< the desks are there until what waits is stored
 
   // From the Web:
 
@@ -115,14 +121,16 @@ class WebService {
   void show_if_new(Kept kept, slots::Slot slot, std::string text);
   void answer(ViewerId viewer, const std::string& id, const Reason& why_not);
   void answer_operators(Time now);
-  [[nodiscard]] Reason take_request(const RequestMessage& message, RequestSource source, Time now);
-  [[nodiscard]] Reason take_cancel(const CancelMessage& message, RequestSource source, Time now);
-  [[nodiscard]] Reason take_vote(const VoteMessage& message, Time now);
-  void take_of_screen(ViewerId viewer, const ClientMessage& message, Time now);
+  /// Answers that viewer, once it is clear what became of it.
+  [[nodiscard]] std::function<void(const Reason&)> answer_for(ViewerId viewer, std::string id);
+  void take_request(const Caller& caller, const RequestMessage& message, Time now);
+  void take_cancel(const Caller& caller, const CancelMessage& message, Time now);
+  void take_vote(const Caller& caller, const VoteMessage& message, Time now);
 
   const museum::Museum& museum_;
   Viewers& viewers_;
   std::unique_ptr<Database> database_;
+  StoreQueue queue_;
   const std::size_t max_open_requests_;
   const Duration forgets_after_;
   const HornSound horn_;

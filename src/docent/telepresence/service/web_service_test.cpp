@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
 #include "docent/messages/conversions.h"
 #include "docent/telepresence/service/service_fixture.h"
 
@@ -25,10 +29,12 @@ museum::Museum small_museum() {
 /// The service with a robot and viewers who write down what they hear; the test is the Web and the clock.
 class WebServiceTest : public testing::Test {
  protected:
-  WebServiceTest() {
+  WebServiceTest() { make(WebStore::open(":memory:").value(), {}); }
+  void make(WebStore store, StoreQueue::Post post) {
     WebServiceParts parts;
-    parts.store = WebStore::open(":memory:").value();
+    parts.store = std::move(store);
     database_ = parts.store.database.get();
+    parts.post = std::move(post);
     parts.max_open_requests = 2;
     parts.forgets_after = std::chrono::hours{1};
     parts.note = [](const std::string&, const std::string&, const std::string&) {};
@@ -251,6 +257,45 @@ TEST_F(WebServiceTest, TheHealthOfAllIsShownAndCanBeFetched) {
   look();
   EXPECT_NE(service_->health_document().find("avoid"), std::string::npos);
   EXPECT_EQ(viewers_.of(slots::kHealth).back(), service_->health_document());
+}
+
+TEST_F(WebServiceTest, AnOperatorWaitsForNoDiskThatVisitorsWaitFor) {
+  char name[] = "/tmp/docent-service-XXXXXX";
+  const std::filesystem::path folder = ::mkdtemp(name);
+  std::mutex mutex;
+  std::vector<std::function<void()>> posted;
+  make(WebStore::open((folder / "web.sqlite").string()).value(), [&](std::function<void()> work) {
+    const std::scoped_lock lock{mutex};
+    posted.push_back(std::move(work));
+  });
+  const auto other = Database::open((folder / "web.sqlite").string()).value();
+  ASSERT_TRUE(other->run_script("BEGIN EXCLUSIVE")) << "the file is held";
+  viewers_.answers.clear();
+  service_->take({7, Role::visitor, ""}, wish(), now_);
+  for (int i = 0; i < 300; ++i)
+    service_->take({8, Role::visitor, ""}, VoteMessage{kId, std::to_string(i), "space"}, now_);
+  EXPECT_TRUE(viewers_.answers.empty()) << "nothing is stored yet";
+  service_->take({9, Role::staff, "ada"}, StopMessage{kOtherId, true, 0}, now_);
+  EXPECT_EQ(robot_.stops, 1);
+  service_->take({9, Role::staff, "ada"}, LeaseMessage{kOtherId, true}, now_);
+  service_->take({9, Role::staff, "ada"}, SteerMessage{true, 0.3, 0.0}, now_);
+  ASSERT_FALSE(robot_.steered.empty());
+  EXPECT_TRUE(robot_.steered.back().is_pressed);
+  EXPECT_TRUE(robot_.requests.empty());
+  now_ = now_ + seconds(3.0);
+  look();
+  EXPECT_EQ(viewers_.answers.size(), 302U) << "who waits for too long is told: the lease, the wish, the votes";
+  EXPECT_NE(service_->fault(), "");
+  ASSERT_TRUE(other->run_script("ROLLBACK"));
+  for (int i = 0; i < 5000 && robot_.requests.empty(); ++i) {
+    service_->take({7, Role::visitor, ""}, wish(), now_);
+    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    const std::scoped_lock lock{mutex};
+    for (const auto& work : std::exchange(posted, {})) work();
+  }
+  EXPECT_FALSE(robot_.requests.empty()) << "it works again";
+  service_.reset();
+  std::filesystem::remove_all(folder);
 }
 
 TEST_F(WebServiceTest, OldWishesAreGivenUp) {

@@ -1,8 +1,7 @@
 #include "docent/telepresence/service/wish_desk.h"
 
-#include <set>
+#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "docent/messages/conversions.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -16,47 +15,117 @@ bool is_cancellation(const docent_msgs::Request& request) {
 
 }  // namespace
 
-Reason WishDesk::take(docent_msgs::Request wish, Time now) {
+void WishDesk::take(docent_msgs::Request wish, Time now, Answer answer) {
   wish.stamp = to_message(now);
-  if (auto stored = outbox_->put(wish); !stored) {
-    fault_ = stored.error().message;
-    return ReasonWord::not_stored;
-  }
-  fault_.clear();
-  robot_.tell(std::move(wish));
-  return {};
+  ++storing_;
+  const auto is_new = std::make_shared<bool>(false);
+  queue_.put(
+      [this, wish, is_new]() -> Result<void> {
+        auto put = outbox_->put(wish);
+        if (!put) return tl::unexpected<Error>(put.error());
+        *is_new = *put;
+        return {};
+      },
+      [this, wish, is_new, answer = std::move(answer)](const Result<void>& stored) {
+        --storing_;
+        fault_ = stored ? "" : stored.error().message;
+        if (!stored) return answer(ReasonWord::not_stored);
+        if (*is_new) pending_.push_back(wish);
+        robot_.tell(wish);
+        answer({});
+      },
+      now);
 }
 
-void WishDesk::see(const docent_msgs::RequestBoard& board) {
+void WishDesk::see(const docent_msgs::RequestBoard& board, Time now) {
   open_ = 0;
   std::set<std::string> closed;
+  std::set<std::string> done;
   for (const auto& entry : board.requests) {
     const auto status = parse<RequestStatus>(entry.state);
     const bool is_waiting = status && is_open(*status);
     if (is_waiting) ++open_;
     if (!is_waiting) closed.insert(entry.request.id);
-    outbox_->delivered(entry.request.id);
+    done.insert(entry.request.id);
   }
   // A cancellation is seen in the state of what it cancels.
-  std::vector<std::string> done;
-  for (const auto& request : outbox_->pending()) {
-    if (is_cancellation(request) && closed.contains(request.target)) done.push_back(request.id);
+  for (const auto& request : pending_) {
+    if (is_cancellation(request) && closed.contains(request.target)) done.insert(request.id);
   }
-  for (const auto& id : done) outbox_->delivered(id);
+  delivered(done, now);
+}
+
+void WishDesk::delivered(const std::set<std::string>& ids, Time now) {
+  std::vector<std::string> gone;
+  std::erase_if(pending_, [&](const auto& request) {
+    if (!ids.contains(request.id)) return false;
+    gone.push_back(request.id);
+    return true;
+  });
+  if (gone.empty()) return;
+  delivered_.insert(gone.begin(), gone.end());
+  store(
+      [this, gone]() -> Result<void> {
+        for (const auto& id : gone)
+          if (auto noted = outbox_->delivered(id); !noted) return noted;
+        return {};
+      },
+      now);
+}
+
+/// What need not succeed: should it fail, a request is told again after a restart, and the board knows it already, or
+/// the table stays larger until the next time.
+void WishDesk::store(StoreQueue::Work work, Time now) {
+  queue_.put(std::move(work), [](const Result<void>&) {}, now);
+}
+
+void WishDesk::forget_before(Time time, Time now) {
+  std::erase_if(pending_, [&](const auto& request) { return from_message(request.stamp) < time; });
+  store([this, time] { return outbox_->forget_before(time); }, now);
 }
 
 void WishDesk::resend(Time now) {
-  if (is_shared_) {
-    if (auto read = outbox_->refresh(); !read) fault_ = read.error().message;
-  }
+  tell_all(now);
+  if (!is_shared_) return;
+  delivered_.clear();
+  const auto found = std::make_shared<std::vector<docent_msgs::Request>>();
+  queue_.put(
+      [this, found]() -> Result<void> {
+        auto read = outbox_->pending();
+        if (!read) return tl::unexpected<Error>(read.error());
+        *found = std::move(*read);
+        return {};
+      },
+      [this, found, now](const Result<void>& read) {
+        if (!read) {
+          fault_ = read.error().message;
+          return;
+        }
+        // What another gateway took is told at once; of what was delivered meanwhile the table did not know yet.
+        for (const auto& request : *found) {
+          const auto is_it = [&](const auto& known) { return known.id == request.id; };
+          if (delivered_.contains(request.id) || std::any_of(pending_.begin(), pending_.end(), is_it)) continue;
+          pending_.push_back(request);
+          robot_.tell(request);
+        }
+        // And what another gateway knows to be on the board is no matter of ours any more.
+        std::erase_if(pending_, [&](const auto& request) {
+          return std::none_of(found->begin(), found->end(), [&](const auto& known) { return known.id == request.id; }) &&
+                 from_message(request.stamp) < now;
+        });
+      },
+      now);
+}
+
+void WishDesk::tell_all(Time now) {
   // A cancellation whose request nobody knows any more would otherwise be repeated for hours.
-  std::vector<std::string> given_up;
-  for (const auto& request : outbox_->pending()) {
+  std::set<std::string> given_up;
+  for (const auto& request : pending_) {
     const bool is_old = now - from_message(request.stamp) > std::chrono::minutes{1};
-    if (is_cancellation(request) && is_old) given_up.push_back(request.id);
+    if (is_cancellation(request) && is_old) given_up.insert(request.id);
   }
-  for (const auto& id : given_up) outbox_->delivered(id);
-  for (const auto& request : outbox_->pending()) robot_.tell(request);
+  delivered(given_up, now);
+  for (const auto& request : pending_) robot_.tell(request);
 }
 
 }  // namespace docent::telepresence

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "docent/messages/request_messages.h"
 #include "docent/telepresence/outbox.h"
 #include "docent/telepresence/service/robot_link.h"
+#include "docent/telepresence/store/store_queue.h"
 #include "docent/vocabulary/reason.h"
 
 namespace docent::telepresence {
@@ -15,26 +19,39 @@ namespace docent::telepresence {
 /// (architecture 10.8, 10.9).
 class WishDesk {
  public:
-  /// The robot outlives it. @param is_shared  other gateways write into the same database
-  WishDesk(RobotLink& robot, std::unique_ptr<Outbox> outbox, bool is_shared)
-      : robot_{robot}, outbox_{std::move(outbox)}, is_shared_{is_shared} {}
+  using Answer = std::function<void(const Reason& why_not)>;
 
-  /// Commits the wish, then tells the robot. None: it may be acknowledged.
-  [[nodiscard]] Reason take(docent_msgs::Request wish, Time now);
-  void see(const docent_msgs::RequestBoard& board);
+  /// Robot and queue outlive it; the outbox is used on the queue's thread, until that has ended.
+  /// @param pending  what lay in the outbox when it was opened
+  /// @param is_shared  other gateways write into the same database
+  WishDesk(RobotLink& robot, StoreQueue& queue, std::unique_ptr<Outbox> outbox,
+           std::vector<docent_msgs::Request> pending, bool is_shared)
+      : robot_{robot}, queue_{queue}, outbox_{std::move(outbox)}, pending_{std::move(pending)}, is_shared_{is_shared} {}
+
+  /// Commits the wish, then tells the robot, then answers. None: it may be acknowledged.
+  void take(docent_msgs::Request wish, Time now, Answer answer);
+  void see(const docent_msgs::RequestBoard& board, Time now);
   /// Tells the robot again what is not on the board yet.
   void resend(Time now);
-  void forget_before(Time time) { outbox_->forget_before(time); }
-  /// Wishes that are open, or on their way to the board.
-  [[nodiscard]] std::size_t waiting() const { return open_ + outbox_->pending().size(); }
+  void forget_before(Time time, Time now);
+  /// Wishes that are open, on their way to the disk, or from there to the board.
+  [[nodiscard]] std::size_t waiting() const { return open_ + pending_.size() + storing_; }
   /// Why the last wish could not be stored; empty: it was.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
+  void store(StoreQueue::Work work, Time now);
+  void delivered(const std::set<std::string>& ids, Time now);
+  void tell_all(Time now);
+
   RobotLink& robot_;
+  StoreQueue& queue_;
   std::unique_ptr<Outbox> outbox_;
+  std::vector<docent_msgs::Request> pending_;  ///< not on the board yet, the oldest first
   bool is_shared_;
   std::size_t open_ = 0;
+  std::size_t storing_ = 0;
+  std::set<std::string> delivered_;  ///< since the outbox was last read
   std::string fault_;
 };
 

@@ -31,8 +31,17 @@ docent_msgs::RequestBoard board_of(const std::vector<std::pair<std::string, Requ
 class WishDeskTest : public testing::Test {
  protected:
   std::unique_ptr<WishDesk> make(bool is_shared = false) {
-    return std::make_unique<WishDesk>(robot_, Outbox::open(*database_).value(), is_shared);
+    auto outbox = Outbox::open(*database_).value();
+    auto pending = outbox->pending().value();
+    return std::make_unique<WishDesk>(robot_, queue_, std::move(outbox), std::move(pending), is_shared);
   }
+  Reason take(docent_msgs::Request wish) {
+    std::optional<Reason> answered;
+    desk_->take(std::move(wish), now_, [&](const Reason& why_not) { answered = why_not; });
+    EXPECT_TRUE(answered);
+    return answered.value_or(ReasonWord::too_fast);
+  }
+  void see(const docent_msgs::RequestBoard& board) { desk_->see(board, now_); }
   /// What the robot is told when it is told again.
   std::vector<std::string> resent() {
     robot_.requests.clear();
@@ -46,50 +55,51 @@ class WishDeskTest : public testing::Test {
   Time now_ = time_from_seconds(100.0);
   RobotEar robot_;
   std::unique_ptr<Database> database_ = Database::open(":memory:").value();
+  StoreQueue queue_{*database_, {}};
   std::unique_ptr<WishDesk> desk_ = make();
 };
 
 TEST_F(WishDeskTest, AWishIsToldUntilItIsOnTheBoard) {
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
   ASSERT_EQ(robot_.requests.size(), 1U) << "at once";
   EXPECT_EQ(robot_.requests[0].target, "sputnik");
   EXPECT_EQ(from_message(robot_.requests[0].stamp), now_);
   now_ = now_ + std::chrono::hours{1};
   EXPECT_EQ(resent(), Ids{"a"});
-  desk_->see(board_of({{"b", RequestStatus::queued}}));
+  see(board_of({{"b", RequestStatus::queued}}));
   EXPECT_EQ(resent(), Ids{"a"}) << "that was another one";
-  desk_->see(board_of({{"a", RequestStatus::refused}}));
+  see(board_of({{"a", RequestStatus::refused}}));
   EXPECT_EQ(resent(), Ids{});
 }
 
 TEST_F(WishDeskTest, AWishThatIsSaidAgainIsKeptOnceAndToldOnce) {
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
-  desk_->see(board_of({{"a", RequestStatus::queued}}));
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
+  see(board_of({{"a", RequestStatus::queued}}));
   robot_.requests.clear();
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
   EXPECT_EQ(robot_.requests.size(), 1U) << "in case the mission lost it";
   EXPECT_EQ(resent(), Ids{});
 }
 
 TEST_F(WishDeskTest, AWishThatCannotBeStoredIsNotTold) {
   ASSERT_TRUE(database_->run("DROP TABLE outbox"));
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{ReasonWord::not_stored});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{ReasonWord::not_stored});
   EXPECT_TRUE(robot_.requests.empty());
   EXPECT_FALSE(desk_->fault().empty());
 }
 
 TEST_F(WishDeskTest, ACancellationIsSeenInWhatItCancels) {
-  desk_->see(board_of({{"a", RequestStatus::queued}}));
-  EXPECT_EQ(desk_->take(wish_for("c", "a", RequestKind::cancel), now_), Reason{});
-  desk_->see(board_of({{"a", RequestStatus::active}}));
+  see(board_of({{"a", RequestStatus::queued}}));
+  EXPECT_EQ(take(wish_for("c", "a", RequestKind::cancel)), Reason{});
+  see(board_of({{"a", RequestStatus::active}}));
   EXPECT_EQ(resent(), Ids{"c"});
-  desk_->see(board_of({{"a", RequestStatus::cancelled}}));
+  see(board_of({{"a", RequestStatus::cancelled}}));
   EXPECT_EQ(resent(), Ids{});
 }
 
 TEST_F(WishDeskTest, ACancellationOfWhatNobodyKnowsIsGivenUpAfterAMinute) {
-  EXPECT_EQ(desk_->take(wish_for("c", "unknown", RequestKind::cancel), now_), Reason{});
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(take(wish_for("c", "unknown", RequestKind::cancel)), Reason{});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
   now_ = now_ + seconds(59.0);
   EXPECT_EQ(resent(), (Ids{"c", "a"}));
   now_ = now_ + seconds(2.0);
@@ -98,21 +108,21 @@ TEST_F(WishDeskTest, ACancellationOfWhatNobodyKnowsIsGivenUpAfterAMinute) {
 
 TEST_F(WishDeskTest, KnowsHowManyWait) {
   EXPECT_EQ(desk_->waiting(), 0U);
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
   EXPECT_EQ(desk_->waiting(), 1U);
-  desk_->see(board_of({{"a", RequestStatus::queued}, {"b", RequestStatus::active}, {"c", RequestStatus::fulfilled}}));
+  see(board_of({{"a", RequestStatus::queued}, {"b", RequestStatus::active}, {"c", RequestStatus::fulfilled}}));
   EXPECT_EQ(desk_->waiting(), 2U);
 }
 
 TEST_F(WishDeskTest, WhatIsTooOldIsForgotten) {
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
-  desk_->forget_before(now_ + seconds(1.0));
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
+  desk_->forget_before(now_ + seconds(1.0), now_);
   EXPECT_EQ(resent(), Ids{});
 }
 
 TEST_F(WishDeskTest, TellsWhatAnotherGatewayTookWhereTheyShareADatabase) {
   const auto shared = make(true);
-  EXPECT_EQ(desk_->take(wish_for("a", "sputnik"), now_), Reason{});
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
   robot_.requests.clear();
   shared->resend(now_);
   ASSERT_EQ(robot_.requests.size(), 1U);

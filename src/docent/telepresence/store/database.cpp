@@ -33,8 +33,11 @@ Result<std::unique_ptr<Database>> Database::open(const std::string& where) {
 }
 
 Result<void> Database::in_transaction(const std::function<Result<void>()>& work) {
+  if (is_in_transaction_) return work();
   if (auto begun = run_script(begin_statement()); !begun) return begun;
+  is_in_transaction_ = true;
   auto done = work();
+  is_in_transaction_ = false;
   if (done) done = run_script("COMMIT");
   if (!done) (void)run_script("ROLLBACK");
   return done;

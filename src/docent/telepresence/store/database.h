@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/base/time.h"
 
 namespace docent::telepresence {
 
@@ -37,6 +38,12 @@ struct QueryResult {
   std::int64_t changed = 0;  ///< rows that were inserted, updated or deleted
 };
 
+/// Of a statement whose rows nobody wants.
+[[nodiscard]] inline Result<void> done(const Result<QueryResult>& answer) {
+  if (!answer) return tl::unexpected<Error>(answer.error());
+  return {};
+}
+
 /// A database of this computer (SQLite) or a shared one (PostgreSQL). A statement that changes something is on disk
 /// when it returns, a transaction when `commit` does. One thread at a time.
 class Database {
@@ -57,12 +64,19 @@ class Database {
   /// Several statements without arguments, as they stand in a migration.
   [[nodiscard]] virtual Result<void> run_script(const std::string& statements) = 0;
   [[nodiscard]] virtual bool was_damaged() const { return false; }
+  /// How long a statement may take; then it has failed, and the database counts as gone. Before: as long as it takes.
+  virtual void set_patience(Duration /*patience*/) {}
+  /// Whether nobody answered the last statement: the next one would wait as long.
+  [[nodiscard]] virtual bool is_gone() const { return false; }
 
-  /// All that `work` does, or nothing when it fails. Transactions do not nest.
+  /// All that `work` does, or nothing when it fails. Within `work` another call is part of the same transaction.
   [[nodiscard]] Result<void> in_transaction(const std::function<Result<void>()>& work);
 
  protected:
   [[nodiscard]] virtual const char* begin_statement() const = 0;
+
+ private:
+  bool is_in_transaction_ = false;
 };
 
 }  // namespace docent::telepresence

@@ -91,6 +91,25 @@ TEST_P(Store, ATransactionIsWholeOrNothing) {
   EXPECT_EQ(count("t"), 2);
 }
 
+TEST_P(Store, ATransactionWithinAnotherIsPartOfIt) {
+  ASSERT_TRUE(database_->run_script("CREATE TABLE t (a BIGINT PRIMARY KEY)"));
+  const auto put = [&](std::int64_t value) {
+    return database_->in_transaction([&]() -> Result<void> {
+      auto done = database_->run("INSERT INTO t (a) VALUES ($1)", {value});
+      if (!done) return tl::unexpected<Error>(done.error());
+      return {};
+    });
+  };
+  EXPECT_FALSE(database_->in_transaction([&]() -> Result<void> {
+    if (auto first = put(1); !first) return first;
+    return put(1);
+  }));
+  EXPECT_EQ(count("t"), 0);
+  EXPECT_TRUE(database_->in_transaction([&] { return put(1); }));
+  EXPECT_TRUE(put(2));
+  EXPECT_EQ(count("t"), 2);
+}
+
 TEST_P(Store, FaultsAreSaidAndHarmNothing) {
   EXPECT_FALSE(database_->run("SELECT nonsense"));
   EXPECT_FALSE(database_->run("INSERT INTO nowhere (a) VALUES ($1)", {std::int64_t{1}}));
@@ -195,6 +214,28 @@ TEST_P(Store, AServerThatCameBackIsUsedAgain) {
   }
   ASSERT_TRUE(put) << put.error().message;
   EXPECT_EQ(count("t"), 1);
+}
+
+TEST_P(Store, AServerThatHangsIsGoneAfterThePatienceAndUsedAgainWhenItAnswers) {
+  if (GetParam() != Kind::server) GTEST_SKIP() << "of servers alone";
+  using Clock = std::chrono::steady_clock;
+  ASSERT_TRUE(database_->run_script("CREATE TABLE t (a BIGINT)"));
+  database_->set_patience(seconds(0.3));
+  ASSERT_TRUE(postgres->hang(true));
+  const auto begun = Clock::now();
+  EXPECT_FALSE(database_->run("INSERT INTO t (a) VALUES (1)"));
+  EXPECT_TRUE(database_->is_gone());
+  EXPECT_LT(Clock::now() - begun, std::chrono::seconds{2});
+  const auto again = Clock::now();
+  EXPECT_FALSE(database_->run("INSERT INTO t (a) VALUES (1)")) << "and nobody waits for it a second time";
+  EXPECT_LT(Clock::now() - again, std::chrono::milliseconds{300});
+  ASSERT_TRUE(postgres->hang(false));
+  Result<QueryResult> put = fail("not tried");
+  for (int i = 0; i < 100 && !put; ++i) {
+    put = database_->run("INSERT INTO t (a) VALUES (2)");
+    if (!put) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+  }
+  ASSERT_TRUE(put) << put.error().message;
 }
 
 TEST(StoreAddress, ThatNobodyAnswersIsAFault) {

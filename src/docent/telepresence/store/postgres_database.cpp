@@ -1,9 +1,12 @@
 #include "docent/telepresence/store/postgres_database.h"
 
 #include <libpq-fe.h>
+#include <poll.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <utility>
 
@@ -51,9 +54,41 @@ Value value_of(const PGresult* reply, int row, int column) {
   }
 }
 
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPatienceAtStart = std::chrono::seconds{10};  // for tables that another gateway is making
+constexpr auto kRests = std::chrono::seconds{1};             // after a try that found nobody
+constexpr const char* kPatienceToConnect = "2";              // [s] the least that libpq knows
+
+/// Whoever has an address and no password gets what libpq finds elsewhere.
+Connection connect(const std::string& address) {
+  const char* const names[] = {"dbname", "connect_timeout", nullptr};
+  const char* const values[] = {address.c_str(), kPatienceToConnect, nullptr};
+  Connection connection{PQconnectdbParams(names, values, 1), &PQfinish};
+  // Notices go nowhere: they would mix with what the program prints.
+  PQsetNoticeProcessor(
+      connection.get(), [](void*, const char*) {}, nullptr);
+  PQsetnonblocking(connection.get(), 1);
+  return connection;
+}
+
+/// Waits until the connection can be read, or written to. False: not until then.
+bool wait_for(PGconn* connection, short what, Clock::time_point until) {
+  pollfd watched{PQsocket(connection), what, 0};
+  if (watched.fd < 0) return false;
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+    if (left.count() <= 0) return false;
+    const int ready = ::poll(&watched, 1, static_cast<int>(left.count()));
+    if (ready > 0) return true;
+    if (ready < 0 && errno != EINTR) return false;
+  }
+}
+
 class PostgresDatabase final : public Database {
  public:
-  explicit PostgresDatabase(Connection connection) : connection_{std::move(connection)} {}
+  PostgresDatabase(std::string address, Connection connection)
+      : address_{std::move(address)}, connection_{std::move(connection)} {}
 
   [[nodiscard]] Result<QueryResult> run(const std::string& statement, const std::vector<Value>& arguments) override {
     std::vector<std::string> texts(arguments.size());
@@ -76,28 +111,55 @@ class PostgresDatabase final : public Database {
       values[i] = texts[i].c_str();
     }
     if (auto live = reconnect(); !live) return tl::unexpected<Error>(live.error());
-    const Reply reply{PQexecParams(connection_.get(), statement.c_str(), static_cast<int>(values.size()), types.data(),
-                                   values.data(), nullptr, nullptr, 0),
-                      &PQclear};
-    return answer_of(reply.get());
+    return answer_to(PQsendQueryParams(connection_.get(), statement.c_str(), static_cast<int>(values.size()),
+                                       types.data(), values.data(), nullptr, nullptr, 0));
   }
   [[nodiscard]] Result<void> run_script(const std::string& statements) override {
     if (auto live = reconnect(); !live) return live;
-    const Reply reply{PQexec(connection_.get(), statements.c_str()), &PQclear};
-    auto answer = answer_of(reply.get());
+    auto answer = answer_to(PQsendQuery(connection_.get(), statements.c_str()));
     if (!answer) return tl::unexpected<Error>(answer.error());
     return {};
   }
+  void set_patience(Duration patience) override { patience_ = patience; }
+  [[nodiscard]] bool is_gone() const override { return PQstatus(connection_.get()) != CONNECTION_OK; }
 
  protected:
   [[nodiscard]] const char* begin_statement() const override { return "BEGIN"; }
 
  private:
   [[nodiscard]] Result<void> reconnect() {
-    if (PQstatus(connection_.get()) == CONNECTION_OK) return {};
-    PQreset(connection_.get());
-    if (PQstatus(connection_.get()) == CONNECTION_OK) return {};
+    if (!is_gone()) return {};
+    if (Clock::now() < rests_until_) return fail("PostgreSQL: does not answer");
+    connection_ = connect(address_);
+    if (!is_gone()) return {};
+    rests_until_ = Clock::now() + kRests;
     return fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
+  }
+  /// To what was sent, within the patience; a server that does not answer in time is left.
+  [[nodiscard]] Result<QueryResult> answer_to(int sent) {
+    const auto until = Clock::now() + patience_;
+    if (sent == 0) return fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
+    int left = 0;
+    while ((left = PQflush(connection_.get())) > 0) {
+      if (!wait_for(connection_.get(), POLLOUT | POLLIN, until)) return leave();
+      if (PQconsumeInput(connection_.get()) == 0) left = -1;
+    }
+    Result<QueryResult> answer = fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
+    while (left == 0) {
+      while (PQisBusy(connection_.get()) != 0) {
+        if (!wait_for(connection_.get(), POLLIN, until)) return leave();
+        if (PQconsumeInput(connection_.get()) == 0) break;
+      }
+      const Reply reply{PQgetResult(connection_.get()), &PQclear};
+      if (!reply) break;
+      answer = answer_of(reply.get());
+    }
+    return answer;
+  }
+  [[nodiscard]] Result<QueryResult> leave() {
+    connection_.reset();  // whoever asks next connects anew
+    rests_until_ = Clock::now() + kRests;
+    return fail("PostgreSQL: does not answer");
   }
   [[nodiscard]] Result<QueryResult> answer_of(const PGresult* reply) const {
     const ExecStatusType status = PQresultStatus(reply);
@@ -115,19 +177,19 @@ class PostgresDatabase final : public Database {
     return answer;
   }
 
+  const std::string address_;
   Connection connection_;
+  Clock::duration patience_ = kPatienceAtStart;
+  Clock::time_point rests_until_;  ///< after a try that found nobody
 };
 
 }  // namespace
 
 Result<std::unique_ptr<Database>> open_postgres(const std::string& address) {
-  Connection connection{PQconnectdb(address.c_str()), &PQfinish};
+  Connection connection = connect(address);
   if (PQstatus(connection.get()) != CONNECTION_OK)
     return fail("PostgreSQL: " + one_line(PQerrorMessage(connection.get())));
-  // Notices go nowhere: they would mix with what the program prints.
-  PQsetNoticeProcessor(
-      connection.get(), [](void*, const char*) {}, nullptr);
-  return std::make_unique<PostgresDatabase>(std::move(connection));
+  return std::make_unique<PostgresDatabase>(address, std::move(connection));
 }
 
 }  // namespace docent::telepresence

@@ -45,6 +45,12 @@ class Postgres {
     return run(as_ + (programs_ / "pg_ctl").string() + " -w -m immediate -D " + (folder_ / "data").string() +
                " restart");
   }
+  /// All its processes stand, or go on: nobody is told, and nothing is closed.
+  bool hang(bool stands) const {
+    const std::string signal = stands ? "STOP" : "CONT";
+    return run("P=$(head -n1 " + (folder_ / "data" / "postmaster.pid").string() + "); kill -" + signal +
+               " $P $(ps -o pid= --ppid $P)");
+  }
 
  private:
   static bool run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }

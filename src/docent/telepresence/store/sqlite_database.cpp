@@ -34,19 +34,22 @@ class SqliteDatabase final : public Database {
       const int before = connection_.getTotalChanges();
       while (query.executeStep()) answer.rows.emplace_back(values_of(query));
       answer.changed = connection_.getTotalChanges() - before;
+      is_gone_ = false;
       return answer;
     } catch (const SQLite::Exception& why) {
-      return fail(name_ + ": " + why.what());
+      return failed(why);
     }
   }
   [[nodiscard]] Result<void> run_script(const std::string& statements) override {
     try {
       connection_.exec(statements);
+      is_gone_ = false;
       return {};
     } catch (const SQLite::Exception& why) {
-      return fail(name_ + ": " + why.what());
+      return failed(why);
     }
   }
+  [[nodiscard]] bool is_gone() const override { return is_gone_; }
   [[nodiscard]] bool was_damaged() const override { return was_damaged_; }
 
  protected:
@@ -54,6 +57,11 @@ class SqliteDatabase final : public Database {
   [[nodiscard]] const char* begin_statement() const override { return "BEGIN IMMEDIATE"; }
 
  private:
+  /// Another program that holds the file for the whole patience would do so again.
+  [[nodiscard]] tl::unexpected<Error> failed(const SQLite::Exception& why) {
+    is_gone_ = why.getErrorCode() == SQLITE_BUSY;
+    return fail(name_ + ": " + why.what());
+  }
   static void bind(SQLite::Statement& query, const std::string& name, const Value& value) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) {
       query.bind(name, *whole);
@@ -85,6 +93,7 @@ class SqliteDatabase final : public Database {
   std::string name_;
   SQLite::Database connection_;
   bool was_damaged_;
+  bool is_gone_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,95 @@
+#include "docent/telepresence/store/store_queue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace docent::telepresence {
+
+StoreQueue::StoreQueue(Database& database, Post post, const StoreQueueParams& params)
+    : database_{database}, post_{std::move(post)}, params_{params}, self_{std::make_shared<StoreQueue*>(this)} {
+  if (post_) thread_ = std::thread{[this, queue = std::weak_ptr{self_}] { run(queue); }};
+}
+
+void StoreQueue::put(Work work, Done done, Time now) {
+  if (!post_) return done(database_.in_transaction(work));
+  auto job = std::make_shared<Job>(Job{std::move(work), std::move(done), now, {}});
+  bool is_full = false;
+  {
+    const std::scoped_lock lock{mutex_};
+    is_full = waiting_.size() >= params_.most_waiting;
+    if (!is_full) waiting_.push_back(job);
+  }
+  if (is_full) return tell(*job, fail("too much waits to be stored"));
+  told_of_.push_back(std::move(job));
+  wakes_.notify_one();
+}
+
+void StoreQueue::look(Time now) {
+  while (!told_of_.empty() && (!told_of_.front()->done || now - told_of_.front()->since > params_.patience)) {
+    const auto job = std::move(told_of_.front());
+    told_of_.pop_front();
+    tell(*job, fail("the database does not answer"));
+  }
+}
+
+Duration StoreQueue::waits(Time now) const {
+  const auto oldest = std::find_if(told_of_.begin(), told_of_.end(), [](const auto& job) { return bool{job->done}; });
+  return oldest == told_of_.end() ? Duration{} : now - (*oldest)->since;
+}
+
+void StoreQueue::finish() {
+  self_.reset();
+  if (!thread_.joinable()) return;
+  {
+    const std::scoped_lock lock{mutex_};
+    is_ending_ = true;
+  }
+  wakes_.notify_one();
+  thread_.join();
+}
+
+void StoreQueue::run(const std::weak_ptr<StoreQueue*>& queue) {
+  std::unique_lock lock{mutex_};
+  while (true) {
+    wakes_.wait(lock, [this] { return is_ending_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const auto count = static_cast<std::ptrdiff_t>(std::min(waiting_.size(), params_.most_together));
+    Jobs jobs{waiting_.begin(), waiting_.begin() + count};
+    waiting_.erase(waiting_.begin(), waiting_.begin() + count);
+    lock.unlock();
+    do_all(jobs);
+    lock.lock();
+    if (database_.is_gone()) {
+      const Result<void> why = jobs.back()->result;
+      for (auto& job : waiting_) jobs.emplace_back(std::move(job))->result = why;
+      waiting_.clear();
+    }
+    lock.unlock();
+    post_([queue, jobs = std::move(jobs)] {
+      if (const auto self = queue.lock()) (*self)->tell(jobs);
+    });
+    lock.lock();
+  }
+}
+
+void StoreQueue::do_all(const Jobs& jobs) {
+  const auto all = database_.in_transaction([&]() -> Result<void> {
+    for (const auto& job : jobs)
+      if (auto done = job->work(); !done) return done;
+    return {};
+  });
+  // One of them may be to blame for all, unless nobody is there to ask.
+  const bool is_one_by_one = !all && jobs.size() > 1 && !database_.is_gone();
+  for (const auto& job : jobs) job->result = is_one_by_one ? database_.in_transaction(job->work) : all;
+}
+
+void StoreQueue::tell(const Jobs& jobs) {
+  for (const auto& job : jobs) tell(*job, job->result);
+  while (!told_of_.empty() && !told_of_.front()->done) told_of_.pop_front();
+}
+
+void StoreQueue::tell(Job& job, const Result<void>& result) {
+  if (const Done done = std::exchange(job.done, {})) done(result);
+}
+
+}  // namespace docent::telepresence
