@@ -52,12 +52,14 @@ class Explorations:
         return self.run_in(self.museum(kind, seed), name, people, seed, *STARTS.get(kind, []), *more, may_fail=bool(more))
 
     def run_in(self, museum, name, people, seed, *more, may_fail=False):
-        """What the robot made of a museum; None when it may fail and did."""
+        """What the robot made of a museum; None when it may fail and did. One that made its map and did not come home is judged all the same."""
         folder = self.pictures / name
         is_done = self.call("explore", "--museum", museum, "--seed", seed, "--people", people, "--hours", LIMIT_HOURS, "--out", folder, "--quiet",
-                            *more, may_fail=may_fail)
-        if not is_done:
+                            *more, may_fail=True)
+        if not is_done and may_fail:
             return None
+        if not (folder / "report.json").exists():
+            raise RuntimeError(f"docent explore made no map of {museum}, seed {seed}")
         self.call("score-map", "--map", folder / "map.yaml", "--world", museum / "simulation.yaml", "--report", folder / "score.json",
                   program=laboratory(self.program))
         run = json.loads((folder / "report.json").read_text())

@@ -75,9 +75,58 @@ await check("the stop button of one stops the robot, and the other shows it", as
   await lines[1].ask({ type: "stop", id: uuid7(), stopped: true });
   await until("both show it", () => lines.every((line) => line.newest.operation?.stopped));
   await until("it stands", () => here.newest.live.avoid?.reason?.word === "stopped_by_hand");
-  await lines[0].ask({ type: "stop", id: uuid7(), stopped: false });
+  await lines[0].ask({ type: "stop", id: uuid7(), stopped: false, number: lines[0].newest.operation.stop_number });
   await until("both show it", () => lines.every((line) => !line.newest.operation.stopped));
   lines.forEach((line) => line.close());
+});
+
+await check("a database that hangs holds up no operator, and whoever wishes is told", async () => {
+  const operator = new Caller(first);
+  await operator.call("POST", "/login", { name: "operator", password: PASSWORD });
+  const target = await exhibit();
+  const waits = [];
+  database.hang(true);
+  try {
+    const wish = here.ask({ type: "request", id: uuid7(), kind: "exhibit", target, viewpoint: -1, name: "Ada", language: "en" });
+    const refused = wish.then(() => Promise.reject(new Error("a wish was taken")), (why) => why.message);
+    for (let i = 0; i < 5; ++i) {
+      const line = new Line(first, "/operate", { Cookie: operator.cookie });
+      const begin = Date.now();
+      await line.opened;
+      await until("the operation", () => line.newest.operation);
+      for (const stopped of [true, false]) {
+        const pressed = Date.now();
+        await line.ask({ type: "stop", id: uuid7(), stopped, number: line.newest.operation.stop_number });
+        waits.push(Date.now() - pressed);
+        await until("it is shown", () => line.newest.operation.stopped === stopped);
+      }
+      if (Date.now() - begin > 5000) throw new Error("opening and stopping took more than 5 s");
+      line.close();
+    }
+    if (!/not_stored/.test(await refused)) throw new Error(await refused);
+  } finally {
+    database.hang(false);
+  }
+  if (Math.max(...waits) > 1000) throw new Error(`a stop took ${Math.max(...waits)} ms`);
+  await until("wishes are taken again", () => here.ask({ type: "request", id: uuid7(), kind: "exhibit", target, viewpoint: -1, name: "Ada", language: "en" }).then(() => true, () => false), 10000, 500);
+  return `stops acted within ${Math.max(...waits)} ms`;
+});
+
+await check("whoever logs out at one gateway is gone from the other", async () => {
+  const operator = new Caller(first);
+  await operator.call("POST", "/login", { name: "operator", password: PASSWORD });
+  const lines = [first, second].map((port) => new Line(port, "/operate", { Cookie: operator.cookie }));
+  await Promise.all(lines.map((line) => line.opened));
+  await lines[1].ask({ type: "lease", id: uuid7(), wants: true });
+  await until("the lease is shown", () => lines[1].newest.operation?.holder === "operator");
+  const begin = Date.now();
+  const closed = lines.map((line) => new Promise((resolve) => line.socket.once("close", () => resolve(Date.now() - begin))));
+  await operator.call("DELETE", "/login");
+  const gone = await Promise.all(closed);
+  const after = new Line(second, "/operate", { Cookie: operator.cookie });
+  if (await after.opened.then(() => true, () => false)) throw new Error("their old cookie opens it again");
+  if (Math.max(...gone) > 3000) throw new Error(`${gone} ms`);
+  return `${gone[0]} ms here, ${gone[1]} ms there`;
 });
 
 /** A viewer as the page is one: when its line breaks it calls again after 0.3 s, then after longer pauses. */

@@ -95,6 +95,12 @@ export function postgres() {
   clean.push(() => run(join(programs, "pg_ctl"), "-m", "immediate", "-D", data, "stop"));
   return {
     address: `postgresql:///postgres?user=docent&host=${place}`,
+    /** All its processes stand, or go on: nobody is told, and nothing is closed. */
+    hang(stands) {
+      const server = Number(readFileSync(join(data, "postmaster.pid"), "utf8").split("\n")[0]);
+      const others = spawnSync("ps", ["-o", "pid=", "--ppid", String(server)], { encoding: "utf8" }).stdout.split("\n").filter(Boolean).map(Number);
+      for (const pid of [server, ...others]) process.kill(pid, stands ? "SIGSTOP" : "SIGCONT");
+    },
     rows(statement) {
       const done = spawnSync(join(programs, "psql"), ["-h", place, "-U", "docent", "-d", "postgres", "-tAc", statement], { encoding: "utf8" });
       if (done.status !== 0) throw new Error(done.stderr);

@@ -124,6 +124,18 @@ await check("the forum is the museum's; operators must be nearer", async () => {
     () => undefined,
   );
 });
+await check("what does not fit the line is refused at once, and the line stays", async () => {
+  const long = await fetch(`http://127.0.0.1:${far}/api/v1/forum?before=${"1".repeat(5000)}`);
+  if (long.status !== 414) throw new Error(`a long address: ${long.status}`);
+  const odd = await Promise.all(Array.from({ length: 50 }, () => fetch(`http://127.0.0.1:${far}/api/v1/forum?before=1`, { headers: { Cookie: `docent_login=${"x".repeat(5000)}` } })));
+  if (odd.some((reply) => ![200, 429, 503].includes(reply.status))) throw new Error(`${odd.map((reply) => reply.status)}`);
+  const large = await fetch(`http://127.0.0.1:${far}/api/v1/museum`, { method: "PUT", headers: { "Content-Type": "application/json" }, body: " ".repeat(70000) }).then((reply) => reply.status, () => 403);
+  if (large !== 403) throw new Error(`a museum: ${large}`);
+  const operator = await fetch(`http://127.0.0.1:${far}/api/v1/login`, { method: "POST", headers: { "Content-Type": "application/json" }, body: '{"name":"a","password":"b"}' });
+  if (operator.status !== 403) throw new Error(`a login: ${operator.status}`);
+  const before = viewers[7].newest.pose.t;
+  await until("the line goes on", () => viewers[7].newest.pose.t > before);
+});
 await check("without its key nobody takes the line", async () => {
   for (const path of ["/uplink?key=", "/uplink?key=00000000000000000000000000000000"]) {
     const line = new Line(here, path);

@@ -70,6 +70,8 @@ telepresence::WebServiceParts service_parts(const ModuleContext& context, const 
   parts.post = [&bus = context.bus](std::function<void()> work) { bus.post(std::move(work)); };
   parts.is_shared = telepresence::Database::is_shared(params.database);
   parts.max_open_requests = static_cast<std::size_t>(params.max_open_requests);
+  parts.kept_places = static_cast<std::size_t>(params.kept_places);
+  parts.max_open_of_address = static_cast<std::size_t>(params.max_open_of_address);
   parts.forgets_after = seconds(params.forget_hours * 3600.0);
   parts.note = [desk](std::string who, std::string what, std::string about) {
     desk->note(std::move(who), std::move(what), std::move(about));
@@ -230,6 +232,7 @@ class WebModule final : public Module {
     bus_.every(seconds(1.0), [this] {
       service_.see_people(live_.people(), live_.map_from_base());
       service_.look(hours(), server_->figures().viewers, bus_.now());
+      desk_->look();
     });
     bus_.every(seconds(params_.resend_s), [this] { service_.resend(bus_.now()); });
     bus_.every(kOperationPeriod, [this] { service_.show_operation(); });

@@ -265,14 +265,14 @@ TEST_F(WebModuleTest, ShowsThePoseOnceItIsKnown) {
 
 TEST_F(WebModuleTest, ServesTheMuseum) {
   telepresence::TestClient client{port_};
-  client.send("GET /api/museum.json HTTP/1.1\r\nHost: a\r\n\r\n");
+  client.send("GET /api/museum.json HTTP/1.1\r\nHost: localhost\r\n\r\n");
   const auto [head, body] = client.receive_reply();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
   const Json museum = Json::parse(body);
   EXPECT_EQ(museum["exhibits"][0]["title"]["en"], "Sputnik \"1\"");
   EXPECT_EQ(museum["exhibits"][0]["viewpoints"].size(), 2U);
   EXPECT_EQ(museum["map"]["columns"], 40);
-  client.send("GET /api/map.png HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  client.send("GET /api/map.png HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
   EXPECT_EQ(client.receive_reply().second.substr(1, 3), "PNG");
 }
 
@@ -304,7 +304,7 @@ TEST_F(WebModuleTest, TheHornIsToldWithTheNameOfItsSound) {
   EXPECT_NEAR(loud["duration"].get<double>(), interaction::horn_sound().duration_s, 0.01);
   ASSERT_TRUE(interaction::write_shared(interaction::horn_sound(), state_ / "audio"));  // as `sound` does
   telepresence::TestClient listener{port_};
-  listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: a\r\n\r\n");
+  listener.send("GET " + loud["audio"].get<std::string>() + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(listener.receive_reply().second, interaction::horn_sound().content);
 
   const auto sound = robot_bus_->publisher(topics::kSoundState);
@@ -391,7 +391,7 @@ TEST_F(WebModuleTest, APictureOfAnExhibitIsServed) {
   ASSERT_TRUE(write_file_atomically(state_ / "sputnik.svg", "<svg/>"));
   start();
   telepresence::TestClient client{port_};
-  client.send("GET /api/pictures/sputnik.svg HTTP/1.1\r\nHost: a\r\n\r\n");
+  client.send("GET /api/pictures/sputnik.svg HTTP/1.1\r\nHost: localhost\r\n\r\n");
   const auto [head, body] = client.receive_reply();
   EXPECT_NE(head.find("image/svg+xml"), std::string::npos) << head;
   EXPECT_EQ(body, "<svg/>");

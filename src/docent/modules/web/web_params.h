@@ -21,6 +21,8 @@ struct WebParams : telepresence::WebServerParams {
   double forget_hours = 24.0;       ///< after that a request is given up and forgotten
   int scan_step = 3;                ///< every n-th reading is shown
   int max_open_requests = 500;      ///< of everybody together; more are refused
+  int kept_places = 20;             ///< of these for the hall's screen, its buttons and staff: the Web never takes them
+  int max_open_of_address = 50;     ///< of whoever comes from one address over the Web
   telepresence::ApiParams api;      ///< logins, and how often somebody may call
   telepresence::ForumParams forum;  ///< what visitors may write
   template <class V>
@@ -35,6 +37,8 @@ struct WebParams : telepresence::WebServerParams {
     v("forget_hours", forget_hours);
     v("scan_step", scan_step);
     v("max_open_requests", max_open_requests);
+    v("kept_places", kept_places);
+    v("max_open_of_address", max_open_of_address);
     v("api", api);
     v("forum", forum);
   }
@@ -52,6 +56,9 @@ struct WebParams : telepresence::WebServerParams {
     if (!(forget_hours > 0.0)) return fail("web.forget_hours must be > 0");
     if (scan_step < 1 || scan_step > 90) return fail("web.scan_step must be 1 to 90");
     if (max_open_requests < 1) return fail("web.max_open_requests must be at least 1");
+    if (kept_places < 0 || kept_places >= max_open_requests)
+      return fail("web.kept_places must be less than web.max_open_requests");
+    if (max_open_of_address < 1) return fail("web.max_open_of_address must be at least 1");
     return {};
   }
 };

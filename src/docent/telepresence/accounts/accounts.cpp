@@ -15,7 +15,12 @@ constexpr Migration kTables[] = {
      "CREATE INDEX sessions_of_person ON sessions (person);"
      "CREATE TABLE sent_away (person TEXT NOT NULL, address TEXT NOT NULL, ends BIGINT NOT NULL,"
      " PRIMARY KEY (person, address))"},
+    {"places",
+     "CREATE TABLE login_places (name TEXT NOT NULL, network TEXT NOT NULL, last BIGINT NOT NULL,"
+     " PRIMARY KEY (name, network))"},
 };
+
+constexpr Duration kPlacesLast = std::chrono::hours{24 * 90};
 
 std::string id_of(const std::string& account) { return "account:" + account; }
 
@@ -118,6 +123,30 @@ Result<std::optional<Login>> Accounts::find(const std::string& token, Time now) 
   return Login{{row.text(1), row.text(2), *rank}, token, row.text(0), row.text(4), Time{row.number(5)}};
 }
 
+Result<std::set<std::string>> Accounts::sessions_of_accounts(Time now) {
+  auto rows =
+      database_.run("SELECT token FROM sessions WHERE expires > $1 AND person LIKE 'account:%'", {now.nanoseconds});
+  if (!rows) return tl::unexpected<Error>(rows.error());
+  std::set<std::string> tokens;
+  for (const Row& row : rows->rows) tokens.insert(row.text(0));
+  return tokens;
+}
+
+Result<void> Accounts::remember(const Place& place, Time now) {
+  return done(
+      database_.run("INSERT INTO login_places (name, network, last) VALUES ($1, $2, $3)"
+                    " ON CONFLICT (name, network) DO UPDATE SET last = excluded.last",
+                    {place.name, place.network, now.nanoseconds}));
+}
+
+Result<std::vector<Accounts::Place>> Accounts::places() {
+  auto rows = database_.run("SELECT name, network FROM login_places");
+  if (!rows) return tl::unexpected<Error>(rows.error());
+  std::vector<Place> places;
+  for (const Row& row : rows->rows) places.push_back({row.text(0), row.text(1)});
+  return places;
+}
+
 Result<void> Accounts::end(const std::string& token) {
   return done(database_.run("DELETE FROM sessions WHERE token = $1", {hash_token(token)}));
 }
@@ -151,6 +180,7 @@ void Accounts::forget_before(Time now) {
   // Should it fail, the tables only stay larger until the next time.
   (void)database_.run("DELETE FROM sessions WHERE expires < $1", {now.nanoseconds});
   (void)database_.run("DELETE FROM sent_away WHERE ends < $1", {now.nanoseconds});
+  (void)database_.run("DELETE FROM login_places WHERE last < $1", {(now - kPlacesLast).nanoseconds});
 }
 
 }  // namespace docent::telepresence

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,16 @@ class Accounts {
   /// nullopt: there is none, it has ended, or its person was sent away.
   [[nodiscard]] Result<std::optional<Login>> find(const std::string& token, Time now);
   [[nodiscard]] Result<void> end(const std::string& token);
+
+  /// The sessions of those with accounts that have not ended, as hash_token gives their tokens.
+  [[nodiscard]] Result<std::set<std::string>> sessions_of_accounts(Time now);
+
+  /// From where an account's password was right, for `LoginDoor`; `network` of limits/network.h.
+  struct Place {
+    std::string name, network;
+  };
+  [[nodiscard]] Result<void> remember(const Place& place, Time now);
+  [[nodiscard]] Result<std::vector<Place>> places();
 
   /// Ends their sessions. Nobody begins a visitor's session from their addresses until then either.
   [[nodiscard]] Result<void> send_away(const std::string& person, Time until, Time now);

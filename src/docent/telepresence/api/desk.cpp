@@ -1,7 +1,11 @@
 #include "docent/telepresence/api/desk.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
+
+#include "docent/telepresence/accounts/secrets.h"
+#include "docent/telepresence/limits/network.h"
 
 namespace docent::telepresence {
 namespace {
@@ -10,41 +14,59 @@ ApiReply refusal(const ApiRefusal& why) {
   return {status_of(why.reason), json_text(documents::Fault{why.reason, why.about}), ""};
 }
 
+/// Whose password a body tries; empty: nobody's.
+std::string name_in(const std::string& body) {
+  const auto parsed = nlohmann::json::parse(body, nullptr, false);
+  const bool has_name = parsed.is_object() && parsed.contains("name") && parsed["name"].is_string();
+  return has_name ? parsed["name"].get<std::string>().substr(0, 64) : std::string{};
+}
+
 constexpr double kReadsAtOnce = 10.0;   // [s] worth of them
 constexpr double kWritesAtOnce = 20.0;  // [s] likewise
 constexpr double kAuditDays = 365.0;
 
 }  // namespace
 
-Desk::Desk(ApiServices store, ApiServices passwords, const ApiParams& params, Clock clock)
+Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params, Clock clock)
     : params_{params},
       clock_{std::move(clock)},
       store_{std::move(store)},
+      staff_{std::move(staff)},
       passwords_{std::move(passwords)},
       reads_{{params.reads_per_second, std::max(1.0, kReadsAtOnce * params.reads_per_second)}},
       writes_{{params.writes_per_second, std::max(1.0, kWritesAtOnce * params.writes_per_second)}},
-      logins_{{params.logins_per_minute / 60.0, params.logins_per_minute}},
+      door_{{.of_address = {params.logins_per_minute / 60.0, params.logins_per_minute},
+             .of_name = {params.logins_per_minute / 60.0, params.logins_per_minute}}},
       store_worker_{static_cast<std::size_t>(params.calls_waiting)},
+      staff_worker_{static_cast<std::size_t>(params.calls_waiting)},
       password_worker_{static_cast<std::size_t>(params.passwords_waiting)} {}
 
 Result<std::unique_ptr<Desk>> Desk::open(const std::string& database, const ApiParams& params, const ForumParams& forum,
                                          Clock clock, const PasswordCost& cost,
                                          std::shared_ptr<const MuseumOffice> museum,
                                          std::shared_ptr<const SetupOffice> setup) {
-  auto store = ApiServices::open(database, params, forum, cost);
-  if (!store) return tl::unexpected<Error>(store.error());
-  store->museum = std::move(museum);
-  store->setup = std::move(setup);
-  auto passwords = ApiServices::open(database, params, forum, cost);
-  if (!passwords) return tl::unexpected<Error>(passwords.error());
-  return std::unique_ptr<Desk>{new Desk{std::move(*store), std::move(*passwords), params, std::move(clock)}};
+  std::array<ApiServices, 3> services;
+  for (ApiServices& each : services) {
+    auto opened = ApiServices::open(database, params, forum, cost);
+    if (!opened) return tl::unexpected<Error>(opened.error());
+    each = std::move(*opened);
+  }
+  auto places = services[0].accounts->places();
+  if (!places) return tl::unexpected<Error>(places.error());
+  auto& [store, staff, passwords] = services;
+  staff.museum = std::move(museum);
+  staff.setup = std::move(setup);
+  std::unique_ptr<Desk> desk{
+      new Desk{std::move(store), std::move(staff), std::move(passwords), params, std::move(clock)}};
+  for (const auto& [name, network] : *places) desk->door_.know(name, network);
+  return desk;
 }
 
-bool Desk::is_within_rate(const ApiRequest& request, const Endpoint& endpoint) {
-  const Time now = clock_();
+bool Desk::is_within_rate(const ApiRequest& request, const Endpoint& endpoint, bool is_staff) {
+  // What strangers do from an operator's address is no matter of the operator's.
+  const std::string caller = is_staff ? "login " + request.token : network_of(request.address);
   const std::scoped_lock lock{limits_mutex_};
-  if (!endpoint.changes()) return reads_.take(request.address, now);
-  return writes_.take(request.address, now) && (!endpoint.is_dear || logins_.take(request.address, now));
+  return (endpoint.changes() ? writes_ : reads_).take(caller, clock_());
 }
 
 void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
@@ -52,24 +74,79 @@ void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
   const auto found = find_endpoint(endpoints(), request.method, request.target, path);
   if (!found) return answer(refusal(found.error()));
   const Endpoint& endpoint = **found;
-  if (!is_within_rate(request, endpoint)) return answer(refusal({ApiFault::too_fast, ""}));
-  Worker& worker = endpoint.is_dear ? password_worker_ : store_worker_;
-  ApiServices& services = endpoint.is_dear ? passwords_ : store_;
-  // Shared, for a copy of it remains here when the worker is full.
-  const auto tell = std::make_shared<std::function<void(ApiReply)>>(std::move(answer));
+  if (request.is_far && (endpoint.is_dear || endpoint.least > Rank::visitor))
+    return answer(refusal({ApiFault::not_allowed, "nearer to the robot"}));
+  const bool is_staff = logins_.find(request.token, clock_()).has_value();
+  if (!is_within_rate(request, endpoint, is_staff)) return answer(refusal({ApiFault::too_fast, ""}));
+  int rank = 0;
+  if (endpoint.is_dear) {
+    const std::string name = name_in(request.body);
+    const std::string caller = network_of(request.address);
+    if (!door_.may_try(name, caller, clock_())) return answer(refusal({ApiFault::too_fast, ""}));
+    rank = door_.rank(name, caller);
+  }
+  // Shared, for a copy of it remains here when a worker is full.
+  const auto call = std::make_shared<Call>(Call{endpoint, std::move(request), std::move(path), std::move(answer)});
+  if (endpoint.is_dear) return post(password_worker_, passwords_, call, rank);
+  if (is_staff) return post(staff_worker_, staff_, call);
+  if (endpoint.least < Rank::moderator) return post(store_worker_, store_, call);
+  // Whoever may change the museum is looked up among the visitors, and then waits behind none of them.
+  const bool is_taken = store_worker_.post([this, call] {
+    const auto login = login_of(store_, call->request.token, clock_());
+    if (!login || !login->person.is_at_least(Rank::moderator))
+      return call->answer(refusal({ApiFault::not_allowed, ""}));
+    post(staff_worker_, staff_, call);
+  });
+  if (!is_taken) call->answer(refusal({ApiFault::busy, ""}));
+}
+
+void Desk::post(Worker& worker, ApiServices& services, const std::shared_ptr<Call>& call, int rank) {
+  const auto refuse_it = [call] { call->answer(refusal({ApiFault::busy, ""})); };
   const bool is_taken =
-      worker.post([this, &services, &endpoint, request = std::move(request), path = std::move(path), tell]() mutable {
-        (*tell)(reply_to(services, request, endpoint, std::move(path)));
-      });
-  if (!is_taken) (*tell)(refusal({ApiFault::busy, ""}));
+      worker.post([this, &services,
+                   call] { call->answer(reply_to(services, call->request, call->endpoint, std::move(call->path))); },
+                  rank, refuse_it);
+  if (!is_taken) refuse_it();
 }
 
 ApiReply Desk::reply_to(ApiServices& services, const ApiRequest& request, const Endpoint& endpoint,
                         std::map<std::string, std::string> path) {
-  ApiCall call{services, request, std::nullopt, {}, std::move(path), {}, clock_(), {}};
+  ApiCall call{services, request, std::nullopt, {}, std::move(path), {}, clock_(), {}, {}, {}};
   auto document = answer(call, endpoint);
+  const bool is_wrong = !document && document.error().reason == ApiFault::wrong_password;
+  note_logins(call, endpoint.is_dear ? name_in(request.body) : "", is_wrong);
   if (!document) return refusal(document.error());
   return {200, document->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), std::move(call.set_cookie)};
+}
+
+void Desk::note_logins(const ApiCall& call, const std::string& name, bool is_wrong) {
+  const std::string caller = network_of(call.request.address);
+  if (is_wrong) door_.was_wrong(caller, call.now);
+  if (call.ended) {
+    logins_.end(call.ended->token);
+    tell_ended(hash_token(call.ended->token));
+  }
+  if (!call.begun) return;
+  logins_.keep(*call.begun, call.now);
+  if (!name.empty()) door_.know(name, caller);
+}
+
+void Desk::when_ended(std::function<void(const std::string& login)> told) {
+  const std::scoped_lock lock{ended_mutex_};
+  ended_ = std::move(told);
+}
+
+void Desk::tell_ended(const std::string& login) {
+  const std::scoped_lock lock{ended_mutex_};
+  if (ended_) ended_(login);
+}
+
+/// As the database has it; while that does not answer, as it was.
+std::optional<Login> Desk::login_of(ApiServices& services, const std::string& token, Time now) {
+  auto login = services.accounts->find(token, now);
+  if (!login) return logins_.find(token, now);
+  if (*login) logins_.keep(**login, now);
+  return std::move(*login);
 }
 
 ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) {
@@ -83,9 +160,7 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
   call.query = std::move(*query);
   if (endpoint.changes() && !request.is_of_ours) return refuse(ApiFault::other_site);
   if (!request.token.empty()) {
-    auto login = call.services.accounts->find(request.token, call.now);
-    if (!login) return refuse(ApiFault::not_stored, login.error().message);
-    call.login = std::move(*login);
+    call.login = login_of(call.services, request.token, call.now);
     if (call.login) call.person = call.login->person;
   }
   if (!call.person.is_at_least(endpoint.least)) return refuse(ApiFault::not_allowed);
@@ -97,11 +172,6 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
     auto parsed = parse_json(request.body);
     if (!parsed) return refuse(ApiFault::not_understood, parsed.error().message);
     body = std::move(*parsed);
-    if (endpoint.is_dear && body.is_object() && body.contains("name") && body["name"].is_string()) {
-      const std::scoped_lock lock{limits_mutex_};
-      if (!logins_.take("name " + body["name"].get<std::string>().substr(0, 64), call.now))
-        return refuse(ApiFault::too_fast);
-    }
   } else if (!request.body.empty()) {
     return refuse(ApiFault::not_understood, "a body where none belongs");
   }
@@ -115,21 +185,36 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
   return document;
 }
 
-void Desk::admit(std::string token, std::function<void(std::optional<std::string>)> answer) {
-  const auto tell = std::make_shared<std::function<void(std::optional<std::string>)>>(std::move(answer));
-  const bool is_taken = store_worker_.post([this, token = std::move(token), tell] {
-    auto login = store_.accounts->find(token, clock_());
-    const bool is_operator = login && *login && (*login)->person.is_at_least(Rank::operator_);
-    (*tell)(is_operator ? std::optional{(*login)->person.name} : std::nullopt);
-  });
+void Desk::admit(std::string token, std::function<void(std::optional<Admission>)> answer) {
+  const auto admission = [token](const std::optional<Login>& login) {
+    const bool is_operator = login && login->person.is_at_least(Rank::operator_);
+    return is_operator ? std::optional{Admission{login->person.name, hash_token(token)}} : std::nullopt;
+  };
+  // Whoever is known waits for no database.
+  if (const auto known = logins_.find(token, clock_())) return answer(admission(known));
+  const auto tell = std::make_shared<std::function<void(std::optional<Admission>)>>(std::move(answer));
+  const bool is_taken =
+      store_worker_.post([this, token, admission, tell] { (*tell)(admission(login_of(store_, token, clock_()))); });
   if (!is_taken) (*tell)(std::nullopt);
 }
 
 void Desk::note(std::string who, std::string what, std::string about) {
   // Should it not be stored, what was done is done; a stop must not wait for a disk.
-  (void)store_worker_.post([this, who = std::move(who), what = std::move(what), about = std::move(about)] {
-    (void)store_.audit->add({clock_(), who, what, about, ""});
+  (void)staff_worker_.post([this, who = std::move(who), what = std::move(what), about = std::move(about)] {
+    (void)staff_.audit->add({clock_(), who, what, about, ""});
   });
+}
+
+void Desk::look() {
+  if (is_looking_.exchange(true)) return;
+  const bool is_taken = staff_worker_.post([this] {
+    const Time now = clock_();
+    is_looking_ = false;
+    const auto live = staff_.accounts->sessions_of_accounts(now);
+    if (!live) return;  // while nobody answers, whoever is in stays in
+    for (const std::string& login : logins_.keep_only(*live, now)) tell_ended(login);
+  });
+  if (!is_taken) is_looking_ = false;
 }
 
 void Desk::tidy() {

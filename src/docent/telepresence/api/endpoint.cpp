@@ -6,7 +6,7 @@ namespace docent::telepresence {
 namespace {
 
 constexpr std::string_view kRoot = "/api/v1";
-constexpr std::size_t kLongestTarget = 500;
+constexpr std::size_t kLongestWithQuery = 500;
 
 std::vector<std::string_view> parts_of(std::string_view path) {
   std::vector<std::string_view> parts;
@@ -70,6 +70,8 @@ Result<void> ApiParams::validate() const {
   return {};
 }
 
+constexpr Duration kPatience = std::chrono::seconds{2};  // a database that hangs for so long is gone
+
 Result<ApiServices> ApiServices::open(const std::string& where, const ApiParams& params, const ForumParams& forum,
                                       const PasswordCost& cost) {
   ApiServices services;
@@ -84,6 +86,7 @@ Result<ApiServices> ApiServices::open(const std::string& where, const ApiParams&
   if (ready) ready = take(services.statistics, Statistics::open(*services.database));
   if (ready) ready = take(services.audit, Audit::open(*services.database));
   if (!ready) return tl::unexpected<Error>(ready.error());
+  services.database->set_patience(kPatience);
   services.params = params;
   return services;
 }
@@ -134,7 +137,7 @@ ApiAnswer<const Endpoint*> find_endpoint(std::span<const Endpoint> all, std::str
 
 std::optional<std::map<std::string, std::string>> parse_query(std::string_view target) {
   std::map<std::string, std::string> query;
-  if (target.size() > kLongestTarget) return std::nullopt;
+  if (target.size() > kLongestWithQuery) return std::nullopt;
   const auto begin = target.find('?');
   if (begin == std::string_view::npos) return query;
   target.remove_prefix(begin + 1);

@@ -75,7 +75,9 @@ struct ApiCall {
   std::map<std::string, std::string> path;   ///< what stands for {names} in the path: identifiers
   std::map<std::string, std::string> query;  ///< decoded
   Time now;
-  std::string set_cookie;  ///< what the answer shall set
+  std::string set_cookie;      ///< what the answer shall set
+  std::optional<Login> begun;  ///< a login that it began
+  std::optional<Login> ended;  ///< one that it ended
 };
 
 struct ApiRefusal {

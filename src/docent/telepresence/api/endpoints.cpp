@@ -4,6 +4,7 @@
 
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/limits/network.h"
 
 namespace docent::telepresence {
 namespace {
@@ -31,10 +32,12 @@ documents::Me me_of(const std::optional<Login>& login) {
 ApiAnswer<documents::Me> begin_login(ApiCall& call, const Person& person, double lifetime) {
   if (call.login) {
     if (auto ended = call.services.accounts->end(call.login->token); !ended) return unstored(ended.error());
+    call.ended = call.login;
   }
   auto login = call.services.accounts->begin(person, call.request.address, lifetime, call.now);
   if (!login) return unstored(login.error());
   call.set_cookie = cookie_of(login->token, lifetime, call.services.params.secure_cookies);
+  call.begun = *login;
   return me_of(*login);
 }
 
@@ -46,6 +49,8 @@ ApiAnswer<documents::Me> log_in(ApiCall& call, const documents::NewLogin& wish) 
     return refuse(ApiFault::wrong_password);
   }
   if (auto noted = note(call, (*person)->id, "login"); !noted) return unstored(noted.error());
+  const Accounts::Place place{wish.name, network_of(call.request.address)};
+  if (auto known = call.services.accounts->remember(place, call.now); !known) return unstored(known.error());
   return begin_login(call, **person, 3600.0 * call.services.params.login_hours);
 }
 
@@ -64,6 +69,7 @@ ApiAnswer<documents::Me> name_oneself(ApiCall& call, const documents::NewVisitor
 ApiAnswer<Nothing> log_out(ApiCall& call, const Nothing& /*wish*/) {
   call.set_cookie = cookie_of("", 0.0, call.services.params.secure_cookies);
   if (!call.login) return Nothing{};
+  call.ended = call.login;  // here at once, whatever the database says
   if (auto ended = call.services.accounts->end(call.login->token); !ended) return unstored(ended.error());
   return Nothing{};
 }

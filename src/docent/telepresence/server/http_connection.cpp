@@ -14,13 +14,27 @@ namespace http = beast::http;
 using asio::ip::tcp;
 
 constexpr auto kHttpTimeout = std::chrono::seconds{15};
-constexpr int kMostLargeBodies = 4;  // read at a time, so that nobody fills the memory with them
+constexpr std::size_t kLongestSecret = 128;  // bytes: one of ours is shorter
+constexpr int kMostLargeBodies = 4;          // read at a time, so that nobody fills the memory with them
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
 std::string etag_of(const SiteReply& reply) { return '"' + reply.taken + '"'; }
 
 }  // namespace
+
+template <class Answer, class Then>
+auto HttpConnection::when_answered(Then then) {
+  ++owner_.asked;
+  return [self = shared_from_this(), then = std::move(then)](Answer answer) mutable {
+    HttpOwner& owner = self->owner_;
+    const auto executor = self->stream_.get_executor();
+    asio::post(executor, [self = std::move(self), then = std::move(then), answer = std::move(answer)]() mutable {
+      then(*self, std::move(answer));
+    });
+    --owner.asked;  // last: then the server may go
+  };
+}
 
 void HttpConnection::read() {
   parser_.emplace();
@@ -30,20 +44,39 @@ void HttpConnection::read() {
   http::async_read_header(stream_, buffer_, *parser_,
                           [self = shared_from_this()](beast::error_code error, std::size_t) {
                             if (error) return self->complain(error);
-                            self->read_body();
+                            self->look_at_header();
                           });
 }
 
-void HttpConnection::read_body() {
-  const bool is_large = parser_->content_length().value_or(0) > kLongestBody;
-  if (!is_large) {
-    parser_->body_limit(kLongestBody);
-  } else if (parser_->content_length().value_or(0) > longest_body_of(view_of(parser_->get().target()))) {
-    return send(refusal(413, "too large\n"), false, false);
-  } else {
-    if (owner_.large_bodies >= kMostLargeBodies) return send(refusal(503, "not now\n"), false, false);
-    large_body_.emplace(owner_.large_bodies);
+/// What can be said before the body has come.
+void HttpConnection::look_at_header() {
+  const auto& request = parser_->get();
+  if (!is_called_rightly(request)) {
+    return send(refusal(421, "This robot is not known by that name. Its name belongs into web.hosts of robot.yaml.\n"),
+                false, false);
   }
+  if (request.target().size() > kLongestTarget) return send(refusal(414, "too long\n"), false, false);
+  const std::uint64_t length = parser_->content_length().value_or(0);
+  if (length > longest_body_of(view_of(request.target()))) return send(refusal(413, "too large\n"), false, false);
+  if (length > kLongestBody) return read_large_body();
+  parser_->body_limit(kLongestBody);
+  read_body();
+}
+
+/// Only operators hold one of the few places for large bodies.
+void HttpConnection::read_large_body() {
+  if (!owner_.desk || owner_.is_closing) return send(refusal(503, "not now\n"), false, false);
+  std::string token{cookie_value(view_of(parser_->get()[http::field::cookie]), kLoginCookie)};
+  auto begin = [](HttpConnection& self, const std::optional<Admission>& who) {
+    if (!who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
+    if (self.owner_.large_bodies >= kMostLargeBodies) return self.send(refusal(503, "not now\n"), false, false);
+    self.large_body_.emplace(self.owner_.large_bodies);
+    self.read_body();
+  };
+  owner_.desk->admit(std::move(token), when_answered<std::optional<Admission>>(std::move(begin)));
+}
+
+void HttpConnection::read_body() {
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return self->complain(error);
     self->serve();
@@ -61,26 +94,21 @@ void HttpConnection::complain(beast::error_code error) {
   }
 }
 
-std::string HttpConnection::address_of(const HttpRequest& request) const {
+std::string HttpConnection::peer() const {
   beast::error_code error;
   const auto peer = stream_.socket().remote_endpoint(error);
-  if (error) return "";
-  const std::string address = peer.address().to_string();
-  const bool is_proxy = std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
-  return is_proxy ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
+  return error ? "" : peer.address().to_string();
 }
 
-template <class Answer, class Then>
-auto HttpConnection::when_answered(Then then) {
-  ++owner_.asked;
-  return [self = shared_from_this(), then = std::move(then)](Answer answer) mutable {
-    HttpOwner& owner = self->owner_;
-    const auto executor = self->stream_.get_executor();
-    asio::post(executor, [self = std::move(self), then = std::move(then), answer = std::move(answer)]() mutable {
-      then(*self, std::move(answer));
-    });
-    --owner.asked;  // last: then the server may go
-  };
+bool HttpConnection::is_called_rightly(const HttpRequest& request) const {
+  return owner_.hosts.is_ours(view_of(request[http::field::host])) ||
+         std::find(owner_.proxies.begin(), owner_.proxies.end(), peer()) != owner_.proxies.end();
+}
+
+std::string HttpConnection::address_of(const HttpRequest& request) const {
+  const std::string address = peer();
+  const bool is_proxy = std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
+  return is_proxy ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
 }
 
 void HttpConnection::call_api(const HttpRequest& request) {
@@ -90,8 +118,8 @@ void HttpConnection::call_api(const HttpRequest& request) {
   call.method = view_of(request.method_string());
   call.target = view_of(request.target());
   call.body = request.body();
-  call.token = cookie_value(view_of(request[http::field::cookie]), kLoginCookie);
-  call.csrf = view_of(request["Docent-Csrf"]);
+  call.token = cookie_value(view_of(request[http::field::cookie]), kLoginCookie).substr(0, kLongestSecret);
+  call.csrf = view_of(request["Docent-Csrf"]).substr(0, kLongestSecret);
   call.address = address_of(request);
   call.is_json = view_of(request[http::field::content_type]).starts_with("application/json");
   call.is_of_ours =
@@ -108,11 +136,12 @@ void HttpConnection::admit(HttpRequest request) {
   std::string token{cookie_value(view_of(request[http::field::cookie]), kLoginCookie)};
   const std::string address = address_of(request);
   stream_.expires_never();
-  auto open = [request = std::move(request), address](HttpConnection& self, std::optional<std::string> name) mutable {
-    if (!name) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
-    self.owner_.open_live(self.stream_.release_socket(), std::move(request), {Role::staff, false, address, *name});
+  auto open = [request = std::move(request), address](HttpConnection& self, std::optional<Admission> who) mutable {
+    if (!who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
+    self.owner_.open_live(self.stream_.release_socket(), std::move(request),
+                          {Role::staff, false, address, who->name, who->login, std::move(self.place_)});
   };
-  owner_.desk->admit(std::move(token), when_answered<std::optional<std::string>>(std::move(open)));
+  owner_.desk->admit(std::move(token), when_answered<std::optional<Admission>>(std::move(open)));
 }
 
 void HttpConnection::serve() {
@@ -126,7 +155,8 @@ void HttpConnection::serve() {
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
     const std::string address = address_of(request);
-    return owner_.open_live(stream_.release_socket(), std::move(request), {live->role, live->is_thin, address, ""});
+    return owner_.open_live(stream_.release_socket(), std::move(request),
+                            {live->role, live->is_thin, address, "", "", std::move(place_)});
   }
   if (std::holds_alternative<CallApi>(route)) return call_api(request);
   if (std::holds_alternative<OpenOperate>(route)) return admit(std::move(request));

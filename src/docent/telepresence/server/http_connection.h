@@ -12,6 +12,8 @@
 #include <optional>
 
 #include "docent/telepresence/api/exchange/exchange.h"
+#include "docent/telepresence/limits/hosts.h"
+#include "docent/telepresence/limits/place.h"
 #include "docent/telepresence/server/router.h"
 #include "docent/telepresence/web_socket/web_socket.h"
 
@@ -22,7 +24,9 @@ struct Arrival {
   Role role = Role::observer;
   bool is_thin = false;  ///< of what moves it wants the pose alone
   std::string address;
-  std::string name;  ///< an operator's
+  std::string name;   ///< an operator's
+  std::string login;  ///< likewise, which of their logins
+  std::shared_ptr<Place> place;
 };
 
 /// What all connections share with their server, which outlives them.
@@ -32,9 +36,10 @@ struct HttpOwner {
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const Arrival&)> open_live;
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_foxglove;
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_uplink;
-  std::shared_ptr<ApiDesk> desk;         ///< null: there is no /api/v1
-  std::vector<std::string> proxies;      ///< addresses whose X-Forwarded-For is believed
-  std::vector<std::string> origins;      ///< see role_of
+  std::shared_ptr<ApiDesk> desk;     ///< null: there is no /api/v1
+  std::vector<std::string> proxies;  ///< addresses whose X-Forwarded-For is believed
+  std::vector<std::string> origins;  ///< see role_of
+  Hosts hosts{{}};
   std::atomic<int> asked{0};             ///< of the desk, and not yet answered
   std::atomic<bool> is_closing = false;  ///< the desk is asked no more
   std::atomic<std::size_t>* connections = nullptr;
@@ -45,7 +50,9 @@ struct HttpOwner {
 /// One HTTP connection, until it is closed or becomes a session.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(HttpOwner& owner, boost::asio::ip::tcp::socket socket) : owner_{owner}, stream_{std::move(socket)} {
+  /// @param place  null: it is of this computer, or a proxy's
+  HttpConnection(HttpOwner& owner, boost::asio::ip::tcp::socket socket, std::shared_ptr<Place> place)
+      : owner_{owner}, stream_{std::move(socket)}, place_{std::move(place)} {
     ++*owner_.connections;
   }
   ~HttpConnection() { --*owner_.connections; }
@@ -66,6 +73,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     int& count;
   };
 
+  void look_at_header();
+  void read_large_body();
   void read_body();
   void complain(boost::beast::error_code error);
   void serve();
@@ -77,6 +86,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   auto when_answered(Then then);
   [[nodiscard]] std::string address_of(const HttpRequest& request) const;
   /// The other end is a program of this computer; a proxy says for whom it speaks.
+  [[nodiscard]] std::string peer() const;
+  /// Called by a name of ours, or by a proxy of ours, which knows its own.
+  [[nodiscard]] bool is_called_rightly(const HttpRequest& request) const;
   [[nodiscard]] bool is_local(const HttpRequest& request) const;
   void send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip);
   void send(ApiReply reply, bool keep_alive);
@@ -85,6 +97,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   HttpOwner& owner_;
   boost::beast::tcp_stream stream_;
+  std::shared_ptr<Place> place_;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
   std::optional<LargeBody> large_body_;

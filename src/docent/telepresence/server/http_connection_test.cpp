@@ -30,15 +30,23 @@ class ADesk final : public ApiDesk {
       answer({200, R"({"ok":true})", "docent_login=abc; HttpOnly"});
     });
   }
-  void admit(std::string token, std::function<void(std::optional<std::string>)> answer) override {
+  void admit(std::string token, std::function<void(std::optional<Admission>)> answer) override {
     const std::scoped_lock lock{mutex_};
     threads_.emplace_back([token = std::move(token), answer = std::move(answer)] {
-      answer(token == "good" ? std::optional<std::string>{"ada"} : std::nullopt);
+      answer(token == "good" ? std::optional{Admission{"ada", "login of ada"}} : std::nullopt);
     });
   }
   std::vector<ApiRequest> requests() {
     const std::scoped_lock lock{mutex_};
     return requests_;
+  }
+  void when_ended(std::function<void(const std::string&)> told) override {
+    const std::scoped_lock lock{mutex_};
+    ended_ = std::move(told);
+  }
+  void ended(const std::string& login) {
+    const std::scoped_lock lock{mutex_};
+    ended_(login);
   }
   std::chrono::milliseconds delay{0};
 
@@ -46,6 +54,7 @@ class ADesk final : public ApiDesk {
   std::mutex mutex_;
   std::vector<ApiRequest> requests_;
   std::vector<std::thread> threads_;
+  std::function<void(const std::string&)> ended_;
 };
 
 class HttpConnections : public testing::Test {
@@ -71,7 +80,7 @@ class HttpConnections : public testing::Test {
   std::pair<std::string, std::string> call(const std::string& line, const std::string& headers = "",
                                            const std::string& body = "") const {
     TestClient client{server_->port()};
-    client.send(line + " HTTP/1.1\r\nHost: robot.test\r\n" + headers +
+    client.send(line + " HTTP/1.1\r\nHost: localhost\r\n" + headers +
                 (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + "\r\n" + body);
     return client.receive_reply();
   }
@@ -87,7 +96,7 @@ TEST_F(HttpConnections, HandCallsToTheDeskAndAnswersBack) {
   start();
   const auto [head, body] = call("PUT /api/v1/posts/1?x=2",
                                  "Content-Type: application/json; charset=utf-8\r\nCookie: a=1; docent_login=tok\r\n"
-                                 "Docent-Csrf: c\r\nOrigin: http://robot.test\r\n",
+                                 "Docent-Csrf: c\r\nOrigin: http://localhost\r\n",
                                  "{}");
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
   for (const char* wanted :
@@ -122,22 +131,69 @@ TEST_F(HttpConnections, RefuseWhatIsTooLarge) {
   EXPECT_TRUE(desk_->requests().empty());
 }
 
+TEST_F(HttpConnections, AreCalledByANameOfOurs) {
+  WebServerParams params;
+  params.hosts = {"robot.museum.example"};
+  start(params);
+  for (const auto& [host, status] : {std::pair{"localhost", "404"},
+                                     {"127.0.0.1", "404"},
+                                     {"robot.museum.example", "404"},
+                                     {"evil.example", "421"}}) {
+    for (const char* what : {"", "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"}) {
+      TestClient client{server_->port()};
+      client.send(std::string{"GET /nothing HTTP/1.1\r\nHost: "} + host + "\r\n" + what + "\r\n");
+      EXPECT_TRUE(client.receive_reply().first.starts_with(std::string{"HTTP/1.1 "} + status)) << host << what;
+    }
+  }
+  EXPECT_TRUE(call("GET /api/v1/forum?x=" + std::string(3000, 'x')).first.starts_with("HTTP/1.1 414"));
+}
+
+TEST_F(HttpConnections, AnOperatorWhoHasLoggedOutIsGone) {
+  start();
+  TestClient operate{server_->port()};
+  ASSERT_TRUE(operate.upgrade("Cookie: docent_login=good\r\n", "/operate"));
+  TestClient other{server_->port()};
+  ASSERT_TRUE(other.upgrade());
+  desk_->ended("login of somebody else");
+  desk_->ended("login of ada");
+  EXPECT_EQ(left_.get_future().get(), "ada") << "also for the robot, whatever the browser does";
+  operate.send_frame(R"({"type":"steer","pressed":true,"forward":1,"turn":0})");
+  EXPECT_EQ(operate.receive_frame().close_code(), 1008);
+  other.send_frame(R"({"type":"choice","id":"018f3a6c-5b2e-7c3d-9a4b-0123456789ab","prompt":"p","choice":"more"})");
+  other.send_frame("nonsense");
+  EXPECT_EQ(other.receive_frame().close_code(), 1008);
+  const std::scoped_lock lock{mutex_};
+  ASSERT_EQ(heard_.size(), 1U) << "the other viewer alone";
+  EXPECT_EQ(heard_[0].first.role, Role::visitor);
+}
+
 TEST_F(HttpConnections, TakeAWholeMuseumButFewAtATime) {
   start();
   const std::string museum(kLongestBody + 1, 'x');
-  EXPECT_TRUE(call("PUT /api/v1/museum", "", museum).first.starts_with("HTTP/1.1 200"));
+  const std::string ada = "Cookie: docent_login=good\r\n";
+  EXPECT_TRUE(call("PUT /api/v1/museum", ada, museum).first.starts_with("HTTP/1.1 200"));
   EXPECT_EQ(desk_->requests().at(0).body, museum);
   EXPECT_TRUE(call("PUT /api/v1/museum", "", std::string(kLongestMuseum + 1, 'x')).first.starts_with("HTTP/1.1 413"));
-  // Four that never end hold all the places; when they go, there is room again.
-  const std::string begun = "PUT /api/v1/museum HTTP/1.1\r\nHost: a\r\nContent-Length: 500000\r\n\r\n{";
+  const auto begun_with = [](const std::string& headers) {
+    return "PUT /api/v1/museum HTTP/1.1\r\nHost: localhost\r\n" + headers + "Content-Length: 500000\r\n\r\n{";
+  };
   std::vector<std::unique_ptr<TestClient>> slow;
+  for (int i = 0; i < 8; ++i) {
+    slow.push_back(std::make_unique<TestClient>(server_->port()));
+    slow.back()->send(begun_with("Cookie: docent_login=bad\r\n"));
+    EXPECT_TRUE(slow.back()->receive_reply().first.starts_with("HTTP/1.1 403")) << "a stranger holds no place";
+  }
+  EXPECT_TRUE(call("PUT /api/v1/museum", ada, museum).first.starts_with("HTTP/1.1 200"));
+  slow.clear();
+  // Four that never end hold all the places; when they go, there is room again.
+  const std::string begun = begun_with(ada);
   for (int i = 0; i < 4; ++i) {
     slow.push_back(std::make_unique<TestClient>(server_->port()));
     slow.back()->send(begun);
   }
   const auto status_becomes = [&](const std::string& wanted) {
     for (int i = 0; i < 100; ++i) {
-      if (call("PUT /api/v1/museum", "", museum).first.starts_with("HTTP/1.1 " + wanted)) return true;
+      if (call("PUT /api/v1/museum", ada, museum).first.starts_with("HTTP/1.1 " + wanted)) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds{20});
     }
     return false;
@@ -152,7 +208,7 @@ TEST_F(HttpConnections, ServeOneCallAfterTheOther) {
   start();
   TestClient client{server_->port()};
   for (int i = 0; i < 5; ++i) {
-    client.send("GET /api/v1/forum HTTP/1.1\r\nHost: a\r\n\r\n");
+    client.send("GET /api/v1/forum HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_TRUE(client.receive_reply().first.starts_with("HTTP/1.1 200")) << i;
   }
 }
@@ -214,7 +270,7 @@ TEST_F(HttpConnections, TheServerEndsWithCallsUnderWay) {
   std::vector<std::unique_ptr<TestClient>> clients;
   for (int i = 0; i < 20; ++i) {
     clients.push_back(std::make_unique<TestClient>(server_->port()));
-    clients.back()->send("GET /api/v1/forum HTTP/1.1\r\nHost: a\r\n\r\n");
+    clients.back()->send("GET /api/v1/forum HTTP/1.1\r\nHost: localhost\r\n\r\n");
   }
   while (desk_->requests().size() < 10) std::this_thread::sleep_for(1ms);
   server_.reset();

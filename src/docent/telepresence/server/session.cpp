@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/live_encoding.h"
 
 namespace docent::telepresence {
@@ -18,9 +19,11 @@ WebSocketManner manner_of(const WebServerParams& params) {
 }  // namespace
 
 Session::Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, Caller caller,
-                 bool must_be_thin)
+                 bool must_be_thin, std::shared_ptr<Place> place)
     : owner_{owner},
       caller_{std::move(caller)},
+      network_{network_of(caller_.address)},
+      place_{std::move(place)},
       bucket_{caller_.role == Role::staff ? params.steering_per_second : params.messages_per_second,
               caller_.role == Role::staff ? 2.0 * params.steering_per_second : params.message_burst},
       socket_{std::move(socket), manner_of(params)},
@@ -90,10 +93,18 @@ void Session::read() {
   });
 }
 
+bool Session::is_within_rate() {
+  const auto now = TokenBucket::Clock::now();
+  if (!bucket_.take(now)) return false;
+  const bool shares = caller_.role == Role::visitor;  // of the hall's screen and of operators there are few
+  return !shares || owner_.of_address.take(network_, Time{std::chrono::nanoseconds{now.time_since_epoch()}.count()});
+}
+
 void Session::take(const std::string& text, bool is_text) {
+  if (is_closing_) return;
   ++owner_.messages_in;
   if (!is_text) return refuse(CloseCode::unknown_data, "text messages only");
-  if (!bucket_.take(TokenBucket::Clock::now())) {
+  if (!is_within_rate()) {
     ++owner_.messages_refused;
     if (++too_many_ > 100) return close(CloseCode::policy_error, "too many messages");
     answer(std::make_shared<const std::string>(encode_error(ReasonWord::too_fast)));
@@ -119,6 +130,12 @@ void Session::close(CloseCode code, const std::string& reason) {
   if (is_closing_) return;
   is_closing_ = true;
   socket_.close(code, reason.substr(0, 120), [self = shared_from_this()](WebSocket::Error) { self->leave(); });
+}
+
+void Session::end(const std::string& why) {
+  const auto self = shared_from_this();
+  close(CloseCode::policy_error, why);
+  owner_.left(caller_);
 }
 
 void Session::leave() {

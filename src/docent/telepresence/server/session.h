@@ -6,6 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "docent/telepresence/limits/place.h"
+#include "docent/telepresence/limits/rate_limits.h"
 #include "docent/telepresence/server/roles.h"
 #include "docent/telepresence/server/viewer_queue.h"
 #include "docent/telepresence/server/web_server.h"
@@ -23,6 +25,7 @@ struct SessionOwner {
   std::uint32_t full_slots = 0;
   std::uint32_t thin_slots = 0;
   std::uint32_t operator_slots = 0;
+  RateLimits of_address{{20.0, 200.0}};  ///< of what visitors send, by their network
   std::atomic<std::size_t> connections{0};
   std::atomic<std::uint64_t> messages_in{0}, messages_refused{0}, messages_out{0}, values_skipped{0};
 };
@@ -31,8 +34,9 @@ struct SessionOwner {
 /// its is under way.
 class Session : public std::enable_shared_from_this<Session> {
  public:
+  /// @param place  see Place; held as long as the session lasts
   Session(SessionOwner& owner, const WebServerParams& params, boost::asio::ip::tcp::socket socket, Caller caller,
-          bool must_be_thin);
+          bool must_be_thin, std::shared_ptr<Place> place = {});
   ~Session() { --owner_.connections; }
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -46,9 +50,14 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Sends the next thing unless one is being sent.
   void flush();
   void drop() { socket_.drop(); }
+  /// Whether it came with that login of an operator.
+  [[nodiscard]] bool is_of(const std::string& login) const { return !login.empty() && caller_.login == login; }
+  /// Whoever it is has gone, as far as the robot is concerned; what they still send is not heard.
+  void end(const std::string& why);
 
  private:
   void read();
+  [[nodiscard]] bool is_within_rate();
   void watch(const WatchMessage& wish);
   /// Which slots it gets.
   [[nodiscard]] std::uint32_t wanted() const;
@@ -59,6 +68,8 @@ class Session : public std::enable_shared_from_this<Session> {
 
   SessionOwner& owner_;
   const Caller caller_;
+  const std::string network_;
+  const std::shared_ptr<Place> place_;
   TokenBucket bucket_;
   WebSocket socket_;
   ViewerQueue queue_;

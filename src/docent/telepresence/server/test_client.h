@@ -72,7 +72,7 @@ class TestClient {
   /// True when the server accepts the upgrade.
   bool upgrade(const std::string& extra = "", const std::string& path = "/live") {
     send("GET " + path +
-         " HTTP/1.1\r\nHost: robot.test\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+         " HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
          "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
          extra + "\r\n");
     const auto [head, body] = receive_reply();

@@ -8,13 +8,12 @@ namespace docent::telepresence {
 namespace {
 
 constexpr auto kTick = std::chrono::milliseconds{100};
-constexpr std::size_t kMostAnswers = 2000;     // that wait; an uplink that lets more pile up is cut off
-constexpr std::size_t kLongestFrame = 65'536;  // bytes: a call with its body
+constexpr std::size_t kMostAnswers = 2000;  // that wait; an uplink that lets more pile up is cut off
 constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
 
 WebSocketManner manner_of_uplink(const WebServerParams& params) {
-  return {.longest_message = kLongestFrame,
+  return {.longest_message = kLongestToMuseum,
           .idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)},
           .compresses = true};
 }
@@ -134,10 +133,11 @@ void UplinkSession::hear(ToMuseum message) {
     const auto parsed = parse_client_message(said->text);
     const bool is_theirs = said->viewer < (1ULL << kUplinkShift);
     if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed)) return void(++sessions_.messages_refused);
-    return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, ""}, *parsed);
+    return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, "", "", "uplink"}, *parsed);
   }
   auto& call = std::get<UplinkCall>(message);
   if (!owner_.desk || *owner_.is_closing) return say(UplinkReply{call.call, {503, "{}", ""}});
+  call.request.is_far = true;
   ++*owner_.asked;
   owner_.desk->take(std::move(call.request), [self = shared_from_this(), number = call.call](ApiReply reply) mutable {
     std::atomic<int>& asked = *self->owner_.asked;

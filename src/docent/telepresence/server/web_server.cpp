@@ -1,5 +1,6 @@
 #include <utility>  // first: Beast 1.74 forgets it in C++20
 //
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/asio/io_context.hpp>
@@ -10,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/server/foxglove_session.h"
 #include "docent/telepresence/server/http_connection.h"
 #include "docent/telepresence/server/session.h"
@@ -27,6 +29,16 @@ constexpr std::size_t kGroups = WebServer::kParts;
 constexpr auto kGroupPeriod = std::chrono::milliseconds{10};
 constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over the groups
 
+bool is_one_of(const std::vector<std::string>& all, const std::string& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+std::vector<std::string> names_of(const WebServerParams& params) {
+  std::vector<std::string> names = params.hosts;
+  names.insert(names.end(), params.origins.begin(), params.origins.end());
+  return names;
+}
+
 }  // namespace
 
 struct WebServer::Core {
@@ -39,6 +51,7 @@ struct WebServer::Core {
         timer{io},
         accept_timer{io} {
     sessions.message = hooks.message;
+    sessions.of_address = RateLimits{{params.messages_of_address, params.message_burst_of_address}};
     sessions.left = [this](const Caller& caller) {
       if (groups[caller.id % kGroups].erase(caller.id) == 0) return;
       --viewers;
@@ -49,6 +62,7 @@ struct WebServer::Core {
     http.desk = hooks.desk;
     http.origins = params.origins;
     http.proxies = params.proxies;
+    http.hosts = Hosts{names_of(params)};
     http.route = [this](const RouteRequest& request) {
       return router.route(request, viewers >= static_cast<std::size_t>(params.max_viewers));
     };
@@ -70,6 +84,9 @@ struct WebServer::Core {
   }
 
   void accept();
+  void take(tcp::socket socket);
+  /// That login is over: whoever came with it is gone at once, and so is their hand on the knob.
+  void end_login(const std::string& login);
   void open_live(tcp::socket socket, HttpRequest request, const Arrival& how);
   void open_foxglove(tcp::socket socket, HttpRequest request);
   void open_uplink(tcp::socket socket, HttpRequest request);
@@ -79,6 +96,7 @@ struct WebServer::Core {
 
   const WebServerParams params;
   const WebServerHooks hooks;
+  std::map<std::string, int> places;  ///< that connections from elsewhere hold, by their network
   const Router router;
   const std::shared_ptr<FoxgloveHub> foxglove;
   std::atomic<std::size_t> viewers{0};
@@ -106,6 +124,9 @@ Result<void> WebServerParams::validate() const {
   if (port < 0 || port > 65535) return fail("web.port must be 0 to 65535");
   if (max_connections < 1) return fail("web.max_connections must be at least 1");
   if (foxglove_clients < 0 || foxglove_clients > 100) return fail("web.foxglove_clients must be 0 to 100");
+  if (connections_of_address < 1) return fail("web.connections_of_address must be at least 1");
+  if (!(messages_of_address > 0.0)) return fail("web.messages_of_address must be > 0");
+  if (!(message_burst_of_address >= 1.0)) return fail("web.message_burst_of_address must be at least 1");
   if (full_viewers < 0) return fail("web.full_viewers must be >= 0");
   if (max_viewers < 1) return fail("web.max_viewers must be at least 1");
   if (!(messages_per_second > 0.0)) return fail("web.messages_per_second must be > 0");
@@ -128,11 +149,33 @@ void WebServer::Core::accept() {
       accept_timer.async_wait([this](beast::error_code) { accept(); });
       return;
     }
-    if (sessions.connections < static_cast<std::size_t>(params.max_connections)) {
-      std::make_shared<HttpConnection>(http, std::move(socket))->read();
-    }
+    take(std::move(socket));
     accept();
   });
+}
+
+void WebServer::Core::take(tcp::socket socket) {
+  if (sessions.connections >= static_cast<std::size_t>(params.max_connections)) return;  // it closes
+  beast::error_code error;
+  const auto peer = socket.remote_endpoint(error);
+  if (error) return;
+  // For many others speak a proxy of ours and whatever runs on this computer.
+  const std::string address = peer.address().to_string();
+  const bool speaks_for_many = peer.address().is_loopback() || is_one_of(params.proxies, address);
+  std::shared_ptr<Place> place;
+  if (!speaks_for_many) {
+    place = std::make_shared<Place>(places, network_of(address));
+    if (place->taken() > params.connections_of_address) return;
+  }
+  std::make_shared<HttpConnection>(http, std::move(socket), std::move(place))->read();
+}
+
+void WebServer::Core::end_login(const std::string& login) {
+  std::vector<std::shared_ptr<Session>> theirs;
+  for (const auto& group : groups)
+    for (const auto& [id, viewer] : group)
+      if (viewer->is_of(login)) theirs.push_back(viewer);
+  for (const auto& viewer : theirs) viewer->end("logged out");
 }
 
 void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const Arrival& how) {
@@ -143,7 +186,8 @@ void WebServer::Core::open_live(tcp::socket socket, HttpRequest request, const A
   // The robot's own screen shows all there is, whoever watches besides.
   const bool must_be_thin = how.role != Role::kiosk && viewers >= static_cast<std::size_t>(params.full_viewers);
   const auto session =
-      std::make_shared<Session>(sessions, params, std::move(socket), Caller{id, how.role, how.name}, must_be_thin);
+      std::make_shared<Session>(sessions, params, std::move(socket),
+                                Caller{id, how.role, how.name, how.login, how.address}, must_be_thin, how.place);
   if (how.role == Role::visitor && hooks.arrived) hooks.arrived(how.address);
   groups[id % kGroups].emplace(id, session);
   ++viewers;
@@ -218,12 +262,20 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& param
   if (error) return fail(name + ": cannot listen: " + error.message());
   core->accept();
   core->thread = std::thread{[raw = core.get()] { raw->io.run(); }};
+  if (core->hooks.desk) {
+    core->hooks.desk->when_ended(
+        [raw = core.get()](const std::string& login) { asio::post(raw->io, [raw, login] { raw->end_login(login); }); });
+  }
   return std::unique_ptr<WebServer>{new WebServer{std::move(core)}};
 }
 
 WebServer::~WebServer() {
   // What the desk was asked it still answers, and each answer finds its connection.
   core_->http.is_closing = true;
+  if (core_->hooks.desk) {
+    core_->hooks.desk->when_ended({});
+    core_->hooks.desk->close();
+  }
   while (core_->http.asked > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
   core_->io.stop();
   core_->thread.join();

@@ -28,10 +28,15 @@ struct WebServerParams {
   int max_message_bytes = 4096;       ///< a longer one ends the connection
   int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
   double uplink_picture_s = 5.0;      ///< between two pictures of a camera for a gateway far away
-  int uplink_picture_bytes_per_s = 12000;  ///< of its line, for pictures
-  double idle_timeout_s = 30.0;            ///< a viewer who answers no ping for so long is gone
-  std::vector<std::string> origins;        ///< hosts besides the server's own whose pages may open the live channel
-  std::vector<std::string> proxies;        ///< addresses of proxies of ours: the address that they forward is believed
+  int uplink_picture_bytes_per_s = 12000;   ///< of its line, for pictures
+  double idle_timeout_s = 30.0;             ///< a viewer who answers no ping for so long is gone
+  int connections_of_address = 1000;        ///< that are not of this computer; more are closed
+  double messages_of_address = 20.0;        ///< per second, of all visitors who come from one address
+  double message_burst_of_address = 200.0;  ///< likewise at once
+  std::vector<std::string> hosts;    ///< names by which the server may be called, besides localhost, addresses and
+                                     ///< the computer's own; behind a proxy that passes on Host: the public name
+  std::vector<std::string> origins;  ///< hosts besides the server's own whose pages may open the live channel
+  std::vector<std::string> proxies;  ///< addresses of proxies of ours: the address that they forward is believed
   template <class V>
   void visit(V& v) {
     v("address", address);
@@ -48,6 +53,10 @@ struct WebServerParams {
     v("uplink_picture_s", uplink_picture_s);
     v("uplink_picture_bytes_per_s", uplink_picture_bytes_per_s);
     v("idle_timeout_s", idle_timeout_s);
+    v("connections_of_address", connections_of_address);
+    v("messages_of_address", messages_of_address);
+    v("message_burst_of_address", message_burst_of_address);
+    v("hosts", hosts);
     v("origins", origins);
     v("proxies", proxies);
   }
@@ -60,7 +69,9 @@ using ViewerId = std::uint64_t;
 struct Caller {
   ViewerId id = 0;
   Role role = Role::observer;
-  std::string name;  ///< an operator's
+  std::string name;          ///< an operator's
+  std::string login = {};    ///< likewise, which of their logins
+  std::string address = {};  ///< from where they come
 };
 
 /// To whom a slot is sent: everybody but operators' own connections; who asked for details; who gets all that moves;

@@ -28,7 +28,7 @@ int connect_viewer(int port) {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (::connect(end, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return -1;
   const char request[] =
-      "GET /live HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      "GET /live HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n";
   if (::send(end, request, sizeof request - 1, MSG_NOSIGNAL) < 0) return -1;
   char reply[1024];

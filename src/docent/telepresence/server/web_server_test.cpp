@@ -55,14 +55,16 @@ class WebServerTest : public testing::Test {
 TEST_F(WebServerTest, AnswersHttp) {
   start();
   TestClient client{server_->port()};
-  client.send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+  client.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
   auto [head, body] = client.receive_reply();
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
   EXPECT_NE(head.find("Content-Security-Policy: "), std::string::npos);
   EXPECT_NE(head.find("X-Content-Type-Options: nosniff"), std::string::npos);
   EXPECT_EQ(body, "<p>hello");
   // The connection is kept, and HEAD has no body.
-  client.send("HEAD / HTTP/1.1\r\nHost: a\r\n\r\nGET /nothing HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
+  client.send(
+      "HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\nGET /nothing HTTP/1.1\r\nHost: localhost\r\nConnection: "
+      "close\r\n\r\n");
   const std::string rest = client.receive_all();
   EXPECT_NE(rest.find("Content-Length: 8\r\n"), std::string::npos);
   EXPECT_EQ(rest.find("<p>hello"), std::string::npos);
@@ -75,7 +77,7 @@ TEST_F(WebServerTest, SendsCompressedToWhoeverTakesIt) {
   site_->set_document("/long", "text/css; charset=utf-8", text);
   TestClient client{server_->port()};
   const auto get = [&](const std::string& path, const std::string& accepted) {
-    client.send("GET " + path + " HTTP/1.1\r\nHost: a\r\n" + accepted + "\r\n");
+    client.send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + accepted + "\r\n");
     return client.receive_reply();
   };
   const auto [packed_head, packed] = get("/long", "Accept-Encoding: gzip, deflate, br\r\n");
@@ -98,13 +100,13 @@ TEST_F(WebServerTest, SendsCompressedToWhoeverTakesIt) {
 TEST_F(WebServerTest, RefusesWhatIsNotMeantForIt) {
   start();
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 2\r\n\r\nhi", "HTTP/1.1 405"},
-      {"GET /../../etc/passwd HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
-      {"GET /audio/..%2f..%2fetc%2fpasswd HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
+      {"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\nhi", "HTTP/1.1 405"},
+      {"GET /../../etc/passwd HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
+      {"GET /audio/..%2f..%2fetc%2fpasswd HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n", "HTTP/1.1 404"},
       {"GET / HTTP/1.1\r\nX: " + std::string(20000, 'x') + "\r\n\r\n", "HTTP/1.1 413"},
-      {"POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 99999999\r\n\r\n", "HTTP/1.1 413"},
+      {"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999\r\n\r\n", "HTTP/1.1 413"},
       {"\x16\x03\x01garbage\r\n\r\n", "HTTP/1.1 400"},
-      {"GET /other HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      {"GET /other HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n",
        "HTTP/1.1 404"},
   };
@@ -319,11 +321,11 @@ TEST_F(WebServerTest, PagesOfOtherSitesMayNotSpeakForTheirReaders) {
   WebServerParams params;
   params.origins = {"museum.test"};
   start(params);
-  for (const char* origin : {"http://robot.test", "https://robot.test", "https://museum.test"}) {
+  for (const char* origin : {"http://localhost", "https://localhost", "https://museum.test"}) {
     TestClient client{server_->port()};
     EXPECT_TRUE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
   }
-  for (const char* origin : {"https://evil.test", "null", "http://robot.test.evil.test"}) {
+  for (const char* origin : {"https://evil.test", "null", "http://localhost.evil.test"}) {
     TestClient client{server_->port()};
     EXPECT_FALSE(client.upgrade(std::string{"Origin: "} + origin + "\r\n")) << origin;
   }

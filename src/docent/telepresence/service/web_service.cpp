@@ -1,8 +1,10 @@
 #include "docent/telepresence/service/web_service.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "docent/telepresence/document_json.h"
+#include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
 
@@ -31,18 +33,17 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
       database_{std::move(parts.store.database)},
       queue_{*database_, std::move(parts.post)},
       max_open_requests_{parts.max_open_requests},
+      kept_places_{std::min(parts.kept_places, parts.max_open_requests - 1)},
+      max_open_of_address_{parts.max_open_of_address},
       forgets_after_{parts.forgets_after},
       horn_{std::move(parts.horn)},
       operated_{std::move(parts.operated)},
       wishes_{robot, queue_, std::move(parts.store.outbox), std::move(parts.store.pending), parts.is_shared},
       answers_{robot},
       screen_{robot, queue_, std::move(parts.screen), now},
-      votes_{robot,
-             queue_,
-             museum,
-             std::move(parts.store.votes),
-             parts.seed,
-             [this](std::string text) { viewers_.show(slots::kVotes, std::move(text)); },
+      votes_{robot,      queue_,
+             museum,     std::move(parts.store.votes),
+             parts.seed, [this](std::string text) { viewers_.show(slots::kVotes, std::move(text)); },
              now},
       operator_{robot, button, std::move(parts.note)},
       counts_{queue_, std::move(parts.store.statistics), std::move(parts.gateway), now} {}
@@ -66,8 +67,15 @@ std::function<void(const Reason&)> WebService::answer_for(ViewerId viewer, std::
   return [this, viewer, id = std::move(id)](const Reason& why_not) { answer(viewer, id, why_not); };
 }
 
+/// The Web does not fill the board: who stands before the robot still gets in.
+bool WebService::may_wait(const Caller& caller) const {
+  if (caller.role != Role::visitor) return wishes_.waiting() < max_open_requests_;
+  return wishes_.waiting() < max_open_requests_ - kept_places_ &&
+         wishes_.waiting_of(network_of(caller.address)) < max_open_of_address_;
+}
+
 void WebService::take_request(const Caller& caller, const RequestMessage& message, Time now) {
-  if (wishes_.waiting() >= max_open_requests_) return answer(caller.id, message.id, ReasonWord::too_many_wait);
+  if (!may_wait(caller)) return answer(caller.id, message.id, ReasonWord::too_many_wait);
   if (const Reason why_not = why_not_in(museum_, message); !why_not.is_none())
     return answer(caller.id, message.id, why_not);
   docent_msgs::Request wish;
@@ -78,7 +86,7 @@ void WebService::take_request(const Caller& caller, const RequestMessage& messag
   wish.target = message.target;
   wish.viewpoint = message.viewpoint;
   wish.language = message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
-  wishes_.take(std::move(wish), now, answer_for(caller.id, message.id));
+  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id));
 }
 
 void WebService::take_cancel(const Caller& caller, const CancelMessage& message, Time now) {
@@ -87,7 +95,7 @@ void WebService::take_cancel(const Caller& caller, const CancelMessage& message,
   wish.source = to_text(source_of(caller.role));
   wish.kind = to_text(RequestKind::cancel);
   wish.target = message.request;
-  wishes_.take(std::move(wish), now, answer_for(caller.id, message.id));
+  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id));
 }
 
 void WebService::take_vote(const Caller& caller, const VoteMessage& message, Time now) {

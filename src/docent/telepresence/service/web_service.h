@@ -40,10 +40,12 @@ struct HornSound {
 /// What a Web service is made with.
 struct WebServiceParts {
   WebStore store;
-  StoreQueue::Post post;            ///< see StoreQueue; empty: what is stored is stored at once
-  bool is_shared = false;           ///< other gateways write into the same database
-  std::size_t max_open_requests{};  ///< of everybody together; more are refused
-  Duration forgets_after{};         ///< then a request is given up
+  StoreQueue::Post post;              ///< see StoreQueue; empty: what is stored is stored at once
+  bool is_shared = false;             ///< other gateways write into the same database
+  std::size_t max_open_requests{};    ///< of everybody together; more are refused
+  std::size_t kept_places{};          ///< of these, for the hall's screen and buttons and for staff
+  std::size_t max_open_of_address{};  ///< of whoever comes from one address over the Web
+  Duration forgets_after{};           ///< then a request is given up
   OperatorDesk::Note note;
   ScreenDesk::Means screen;
   HornSound horn;
@@ -123,6 +125,7 @@ class WebService {
   void answer_operators(Time now);
   /// Answers that viewer, once it is clear what became of it.
   [[nodiscard]] std::function<void(const Reason&)> answer_for(ViewerId viewer, std::string id);
+  [[nodiscard]] bool may_wait(const Caller& caller) const;
   void take_request(const Caller& caller, const RequestMessage& message, Time now);
   void take_cancel(const Caller& caller, const CancelMessage& message, Time now);
   void take_vote(const Caller& caller, const VoteMessage& message, Time now);
@@ -131,7 +134,7 @@ class WebService {
   Viewers& viewers_;
   std::unique_ptr<Database> database_;
   StoreQueue queue_;
-  const std::size_t max_open_requests_;
+  const std::size_t max_open_requests_, kept_places_, max_open_of_address_;
   const Duration forgets_after_;
   const HornSound horn_;
   const std::function<void(const documents::OperationMessage&)> operated_;

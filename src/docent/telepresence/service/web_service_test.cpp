@@ -35,7 +35,9 @@ class WebServiceTest : public testing::Test {
     parts.store = std::move(store);
     database_ = parts.store.database.get();
     parts.post = std::move(post);
-    parts.max_open_requests = 2;
+    parts.max_open_requests = most_.all;
+    parts.kept_places = most_.kept;
+    parts.max_open_of_address = most_.of_address;
     parts.forgets_after = std::chrono::hours{1};
     parts.note = [](const std::string&, const std::string&, const std::string&) {};
     parts.screen = {[](const AnswerMessage&, Time) { return Result<void>{}; },
@@ -73,6 +75,9 @@ class WebServiceTest : public testing::Test {
   }
   void look() { service_->look({"open", true}, 3, now_); }
 
+  struct Most {
+    std::size_t all = 2, kept = 0, of_address = 2;
+  } most_;
   museum::Museum museum_ = small_museum();
   Time now_ = time_from_seconds(100.0);
   StopRegister button_{"web", {}, now_};
@@ -114,6 +119,40 @@ TEST_F(WebServiceTest, NoMoreWaitThanMay) {
   EXPECT_EQ(take(wish(third)), encode_refusal(third, ReasonWord::too_many_wait));
   show_board(kId, RequestStatus::fulfilled);
   EXPECT_EQ(take(wish(third)), encode_acknowledgement(third));
+}
+
+TEST_F(WebServiceTest, WhoeverFillsTheBoardFromTheWebLeavesRoomForTheHall) {
+  most_ = {20, 5, 8};
+  make(WebStore::open(":memory:").value(), {});
+  int taken = 0;
+  for (int i = 0; i < 100; ++i) {
+    const std::string id = kId.substr(0, 33) + std::to_string(100 + i);
+    viewers_.answers.clear();
+    service_->take({7, Role::visitor, "", "", i % 2 == 0 ? "192.0.2.1" : "198.51.100." + std::to_string(i)}, wish(id),
+                   now_);
+    if (viewers_.answers.at(0).second == encode_acknowledgement(id)) ++taken;
+  }
+  EXPECT_EQ(taken, 15);
+  for (int i = 0; i < 5; ++i) {
+    const std::string id = kId.substr(0, 33) + std::to_string(300 + i);
+    EXPECT_EQ(take(wish(id), Role::kiosk), encode_acknowledgement(id));
+  }
+  EXPECT_EQ(take(wish(kOtherId), Role::kiosk), encode_refusal(kOtherId, ReasonWord::too_many_wait));
+}
+
+TEST_F(WebServiceTest, OneAddressDoesNotTakeAllPlaces) {
+  most_ = {20, 5, 3};
+  make(WebStore::open(":memory:").value(), {});
+  for (int i = 0; i < 5; ++i) {
+    const std::string id = kId.substr(0, 33) + std::to_string(100 + i);
+    viewers_.answers.clear();
+    service_->take({7, Role::visitor, "", "", "2001:db8::" + std::to_string(i)}, wish(id), now_);
+    EXPECT_EQ(viewers_.answers.at(0).second,
+              i < 3 ? encode_acknowledgement(id) : encode_refusal(id, ReasonWord::too_many_wait));
+  }
+  viewers_.answers.clear();
+  service_->take({7, Role::visitor, "", "", "2001:db8:0:1::1"}, wish(), now_);
+  EXPECT_EQ(viewers_.answers.at(0).second, encode_acknowledgement(kId)) << "somebody else still gets in";
 }
 
 TEST_F(WebServiceTest, WhatCannotBeStoredIsRefused) {

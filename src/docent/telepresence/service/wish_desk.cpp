@@ -15,8 +15,9 @@ bool is_cancellation(const docent_msgs::Request& request) {
 
 }  // namespace
 
-void WishDesk::take(docent_msgs::Request wish, Time now, Answer answer) {
+void WishDesk::take(docent_msgs::Request wish, const std::string& network, Time now, Answer answer) {
   wish.stamp = to_message(now);
+  if (!is_cancellation(wish)) asked_from_.emplace(wish.id, network);
   ++storing_;
   const auto is_new = std::make_shared<bool>(false);
   queue_.put(
@@ -29,7 +30,10 @@ void WishDesk::take(docent_msgs::Request wish, Time now, Answer answer) {
       [this, wish, is_new, answer = std::move(answer)](const Result<void>& stored) {
         --storing_;
         fault_ = stored ? "" : stored.error().message;
-        if (!stored) return answer(ReasonWord::not_stored);
+        if (!stored) {
+          asked_from_.erase(wish.id);
+          return answer(ReasonWord::not_stored);
+        }
         if (*is_new) pending_.push_back(wish);
         robot_.tell(wish);
         answer({});
@@ -46,6 +50,7 @@ void WishDesk::see(const docent_msgs::RequestBoard& board, Time now) {
     const bool is_waiting = status && is_open(*status);
     if (is_waiting) ++open_;
     if (!is_waiting) closed.insert(entry.request.id);
+    if (!is_waiting) asked_from_.erase(entry.request.id);
     done.insert(entry.request.id);
   }
   // A cancellation is seen in the state of what it cancels.
@@ -73,14 +78,24 @@ void WishDesk::delivered(const std::set<std::string>& ids, Time now) {
       now);
 }
 
+std::size_t WishDesk::waiting_of(const std::string& network) const {
+  return static_cast<std::size_t>(
+      std::count_if(asked_from_.begin(), asked_from_.end(), [&](const auto& wish) { return wish.second == network; }));
+}
+
 /// What need not succeed: should it fail, a request is told again after a restart, and the board knows it already, or
 /// the table stays larger until the next time.
 void WishDesk::store(StoreQueue::Work work, Time now) {
-  queue_.put(std::move(work), [](const Result<void>&) {}, now);
+  queue_.put(
+      std::move(work), [](const Result<void>&) {}, now);
 }
 
 void WishDesk::forget_before(Time time, Time now) {
-  std::erase_if(pending_, [&](const auto& request) { return from_message(request.stamp) < time; });
+  std::erase_if(pending_, [&](const auto& request) {
+    const bool is_old = from_message(request.stamp) < time;
+    if (is_old) asked_from_.erase(request.id);
+    return is_old;
+  });
   store([this, time] { return outbox_->forget_before(time); }, now);
 }
 
@@ -110,7 +125,8 @@ void WishDesk::resend(Time now) {
         }
         // And what another gateway knows to be on the board is no matter of ours any more.
         std::erase_if(pending_, [&](const auto& request) {
-          return std::none_of(found->begin(), found->end(), [&](const auto& known) { return known.id == request.id; }) &&
+          return std::none_of(found->begin(), found->end(),
+                              [&](const auto& known) { return known.id == request.id; }) &&
                  from_message(request.stamp) < now;
         });
       },

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,13 +30,16 @@ class WishDesk {
       : robot_{robot}, queue_{queue}, outbox_{std::move(outbox)}, pending_{std::move(pending)}, is_shared_{is_shared} {}
 
   /// Commits the wish, then tells the robot, then answers. None: it may be acknowledged.
-  void take(docent_msgs::Request wish, Time now, Answer answer);
+  /// @param network  of who asks (limits/network.h)
+  void take(docent_msgs::Request wish, const std::string& network, Time now, Answer answer);
   void see(const docent_msgs::RequestBoard& board, Time now);
   /// Tells the robot again what is not on the board yet.
   void resend(Time now);
   void forget_before(Time time, Time now);
   /// Wishes that are open, on their way to the disk, or from there to the board.
   [[nodiscard]] std::size_t waiting() const { return open_ + pending_.size() + storing_; }
+  /// Likewise, of those that came from there through this gateway.
+  [[nodiscard]] std::size_t waiting_of(const std::string& network) const;
   /// Why the last wish could not be stored; empty: it was.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
@@ -51,7 +55,8 @@ class WishDesk {
   bool is_shared_;
   std::size_t open_ = 0;
   std::size_t storing_ = 0;
-  std::set<std::string> delivered_;  ///< since the outbox was last read
+  std::map<std::string, std::string> asked_from_;  ///< of the wishes that wait: their networks by their ids
+  std::set<std::string> delivered_;                ///< since the outbox was last read
   std::string fault_;
 };
 

@@ -35,9 +35,9 @@ class WishDeskTest : public testing::Test {
     auto pending = outbox->pending().value();
     return std::make_unique<WishDesk>(robot_, queue_, std::move(outbox), std::move(pending), is_shared);
   }
-  Reason take(docent_msgs::Request wish) {
+  Reason take(docent_msgs::Request wish, const std::string& network = "192.0.2.1") {
     std::optional<Reason> answered;
-    desk_->take(std::move(wish), now_, [&](const Reason& why_not) { answered = why_not; });
+    desk_->take(std::move(wish), network, now_, [&](const Reason& why_not) { answered = why_not; });
     EXPECT_TRUE(answered);
     return answered.value_or(ReasonWord::too_fast);
   }
@@ -112,6 +112,18 @@ TEST_F(WishDeskTest, KnowsHowManyWait) {
   EXPECT_EQ(desk_->waiting(), 1U);
   see(board_of({{"a", RequestStatus::queued}, {"b", RequestStatus::active}, {"c", RequestStatus::fulfilled}}));
   EXPECT_EQ(desk_->waiting(), 2U);
+}
+
+TEST_F(WishDeskTest, KnowsHowManyWaitOfWhom) {
+  EXPECT_EQ(take(wish_for("a", "sputnik")), Reason{});
+  EXPECT_EQ(take(wish_for("b", "sputnik")), Reason{});
+  EXPECT_EQ(take(wish_for("c", "sputnik"), "192.0.2.2"), Reason{});
+  EXPECT_EQ(take(wish_for("d", "c", RequestKind::cancel)), Reason{});
+  EXPECT_EQ(desk_->waiting_of("192.0.2.1"), 2U);
+  EXPECT_EQ(desk_->waiting_of("192.0.2.2"), 1U);
+  see(board_of({{"a", RequestStatus::queued}, {"b", RequestStatus::fulfilled}, {"c", RequestStatus::refused}}));
+  EXPECT_EQ(desk_->waiting_of("192.0.2.1"), 1U);
+  EXPECT_EQ(desk_->waiting_of("192.0.2.2"), 0U);
 }
 
 TEST_F(WishDeskTest, WhatIsTooOldIsForgotten) {

@@ -30,13 +30,18 @@ constexpr std::size_t kLargestFrame = 4U << 20U;  // bytes
 
 ApiReply unanswered() { return {503, R"({"reason":"busy","about":"the line to the museum is down"})", ""}; }
 
+ApiReply too_long() { return {413, R"({"reason":"not_understood","about":"too long"})", ""}; }
+
 }  // namespace
 
 class UplinkClient::Impl {
  public:
   Impl(std::string host, std::string port, std::string key, UplinkHooks hooks)
       : host_{std::move(host)}, port_{std::move(port)}, key_{std::move(key)}, hooks_{std::move(hooks)} {
-    asio::post(io_, [this] { connect(); });
+    asio::post(io_, [this] {
+      connect();
+      look();
+    });
     thread_ = std::thread{[this] { io_.run(); }};
   }
   Impl(const Impl&) = delete;
@@ -48,7 +53,7 @@ class UplinkClient::Impl {
   }
 
   bool say(std::string frame) {
-    if (!is_open_ || waiting_count_ >= kMostWaiting) return false;
+    if (!fits_museum(frame) || !is_open_ || waiting_count_ >= kMostWaiting) return false;
     ++waiting_count_;
     asio::post(io_, [this, frame = std::move(frame)]() mutable {
       waiting_.push_back(std::move(frame));
@@ -57,18 +62,29 @@ class UplinkClient::Impl {
     return true;
   }
   void take(ApiRequest request, std::function<void(ApiReply)> answer) {
-    if (!is_open_) return answer(unanswered());
+    if (!is_open_ || is_closed_) return answer(unanswered());
     asio::post(io_, [this, request = std::move(request), answer = std::move(answer)]() mutable {
-      if (!socket_ || calls_.size() >= kMostWaiting) return answer(unanswered());
+      if (!socket_ || is_closed_ || calls_.size() >= kMostWaiting) return answer(unanswered());
       const std::uint64_t call = ++last_call_;
-      calls_.emplace(call, std::move(answer));
+      std::string frame = encode(ToMuseum{UplinkCall{call, std::move(request)}});
+      if (!fits_museum(frame)) return answer(too_long());
+      calls_.emplace(call, Call{std::move(answer), Clock::now()});
       ++waiting_count_;
-      waiting_.push_back(encode(ToMuseum{UplinkCall{call, std::move(request)}}));
+      waiting_.push_back(std::move(frame));
       flush();
     });
   }
+  void close() {
+    is_closed_ = true;
+    asio::post(io_, [this] { give_up_calls(); });
+  }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Call {
+    std::function<void(ApiReply)> answer;
+    Clock::time_point since;
+  };
   void connect() {
     auto resolved = std::make_shared<tcp::resolver>(io_);
     resolved->async_resolve(host_, port_,
@@ -113,7 +129,7 @@ class UplinkClient::Impl {
     auto& reply = std::get<UplinkReply>(message);
     const auto call = calls_.find(reply.call);
     if (call == calls_.end()) return;
-    const auto answer = std::move(call->second);
+    const auto answer = std::move(call->second.answer);
     calls_.erase(call);
     answer(std::move(reply.reply));
   }
@@ -148,20 +164,32 @@ class UplinkClient::Impl {
   }
   void give_up_calls() {
     const auto calls = std::exchange(calls_, {});
-    for (const auto& [call, answer] : calls) answer(unanswered());
+    for (const auto& [call, waits] : calls) waits.answer(unanswered());
+  }
+  /// Every second: nobody waits for ever.
+  void look() {
+    for (auto call = calls_.begin(); call != calls_.end() && Clock::now() - call->second.since > kPatience;) {
+      call->second.answer(unanswered());
+      call = calls_.erase(call);
+    }
+    look_timer_.expires_after(std::chrono::seconds{1});
+    look_timer_.async_wait([this](beast::error_code error) {
+      if (!error) look();
+    });
   }
 
   const std::string host_, port_, key_;
   const UplinkHooks hooks_;
   asio::io_context io_{1};
-  asio::steady_timer timer_{io_};
+  asio::steady_timer timer_{io_}, look_timer_{io_};
+  std::atomic<bool> is_closed_{false};
   std::atomic<bool> is_open_{false};
   std::atomic<std::size_t> waiting_count_{0};
   // Only the client's thread touches these.
   std::optional<WebSocket> socket_;
   std::deque<std::string> waiting_;
   std::string sending_;
-  std::map<std::uint64_t, std::function<void(ApiReply)>> calls_;
+  std::map<std::uint64_t, Call> calls_;  ///< by their number, the oldest first
   std::uint64_t last_call_ = 0;
   PictureJoiner joiner_;
   bool is_writing_ = false;
@@ -179,7 +207,9 @@ void UplinkClient::take(ApiRequest request, std::function<void(ApiReply)> answer
   impl_->take(std::move(request), std::move(answer));
 }
 
-void UplinkClient::admit(std::string /*token*/, std::function<void(std::optional<std::string>)> answer) {
+void UplinkClient::close() { impl_->close(); }
+
+void UplinkClient::admit(std::string /*token*/, std::function<void(std::optional<Admission>)> answer) {
   answer(std::nullopt);  // who steers must be nearer than this
 }
 

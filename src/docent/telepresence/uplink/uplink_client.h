@@ -29,10 +29,11 @@ class UplinkClient final : public ApiDesk {
   UplinkClient& operator=(const UplinkClient&) = delete;
   ~UplinkClient() override;
 
-  /// Any thread. False: the line is down, or too much waits.
+  /// Any thread. False: the line is down, too much waits, or it is too long for the other end.
   bool say(const ToMuseum& message);
   void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
-  void admit(std::string token, std::function<void(std::optional<std::string>)> answer) override;
+  void admit(std::string token, std::function<void(std::optional<Admission>)> answer) override;
+  void close() override;
 
  private:
   class Impl;

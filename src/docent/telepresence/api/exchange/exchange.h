@@ -19,7 +19,9 @@ struct ApiRequest {
   std::string address;     ///< from where it comes
   bool is_json = false;    ///< it says that its body is JSON
   bool is_of_ours = true;  ///< no page of another site sends it
+  bool is_far = false;     ///< it comes through a gateway far away, of which operators must be nearer
 };
+inline constexpr std::size_t kLongestTarget = 2048;       ///< bytes
 inline constexpr std::size_t kLongestBody = 16'384;       ///< bytes
 inline constexpr std::size_t kLongestMuseum = 1'048'576;  ///< bytes: with the texts of all exhibits
 /// [bytes] Only a museum is larger than everything else; the server reads few of them at a time.
@@ -33,6 +35,12 @@ struct ApiReply {
   std::string set_cookie;  ///< empty: none
 };
 
+/// An operator who has logged in.
+struct Admission {
+  std::string name;
+  std::string login;  ///< which of their logins, as `ended` names it
+};
+
 /// Answers from threads of its own: what it is asked may wait for a disk.
 class ApiDesk {
  public:
@@ -43,7 +51,12 @@ class ApiDesk {
   /// Any thread. `answer` is called once, by whichever thread, also when the desk is full.
   virtual void take(ApiRequest request, std::function<void(ApiReply)> answer) = 0;
   /// Whose login it is when that is an operator's, else nullopt.
-  virtual void admit(std::string token, std::function<void(std::optional<std::string>)> answer) = 0;
+  virtual void admit(std::string token, std::function<void(std::optional<Admission>)> answer) = 0;
+  /// Told on any thread which logins are over. Once this returns, the one before is told nothing more. @pre returns
+  /// soon
+  virtual void when_ended(std::function<void(const std::string& login)> /*told*/) {}
+  /// Nothing is asked any more: whatever waits for somebody else is answered at once.
+  virtual void close() {}
 };
 
 inline constexpr std::string_view kLoginCookie = "docent_login";

@@ -7,7 +7,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kLongestHead = 4096;
 constexpr std::size_t kLargestPicture = 2'000'000;
 
 std::string frame(const Json& head, const std::string& rest) {
@@ -45,6 +44,10 @@ class Opened {
 };
 
 }  // namespace
+
+bool fits_museum(std::string_view frame) {
+  return frame.size() <= kLongestToMuseum && frame.substr(0, kLongestHead + 1).find('\n') != std::string_view::npos;
+}
 
 std::string encode(const FromMuseum& message) {
   if (const auto* slot = std::get_if<UplinkSlot>(&message))

@@ -52,6 +52,11 @@ struct UplinkArrival {
 };
 using ToMuseum = std::variant<UplinkMessage, UplinkCall, UplinkArrival>;
 
+inline constexpr std::size_t kLongestHead = 8192;        ///< bytes of the line of JSON
+inline constexpr std::size_t kLongestToMuseum = 65'536;  ///< bytes of a whole frame
+/// Whether the museum's end takes that frame; a longer one would cut the line.
+[[nodiscard]] bool fits_museum(std::string_view frame);
+
 /// A line of JSON, then what it is about.
 [[nodiscard]] std::string encode(const FromMuseum& message);
 [[nodiscard]] std::string encode(const ToMuseum& message);

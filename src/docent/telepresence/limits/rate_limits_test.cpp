@@ -1,4 +1,4 @@
-#include "docent/telepresence/api/rate_limits.h"
+#include "docent/telepresence/limits/rate_limits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,42 @@
+#include "docent/telepresence/accounts/logins.h"
+
+#include <gtest/gtest.h>
+
+#include "docent/telepresence/accounts/secrets.h"
+
+namespace docent::telepresence {
+namespace {
+
+const Time kToday = time_from_seconds(100.0);
+
+Login login_of(const std::string& token, Rank rank = Rank::operator_) {
+  return {{"account:" + token, token, rank}, token, "csrf", "192.0.2.1", kToday + seconds(60.0)};
+}
+
+TEST(LoginsTest, KnowsThoseWithAccountsUntilTheirLoginIsOver) {
+  Logins logins;
+  logins.keep(login_of("ada"), kToday);
+  logins.keep(login_of("visitor", Rank::visitor), kToday);
+  ASSERT_TRUE(logins.find("ada", kToday));
+  EXPECT_EQ(logins.find("ada", kToday)->person.name, "ada");
+  EXPECT_FALSE(logins.find("visitor", kToday));
+  EXPECT_FALSE(logins.find("", kToday));
+  EXPECT_FALSE(logins.find("ada", kToday + seconds(60.0)));
+  logins.end("ada");
+  EXPECT_FALSE(logins.find("ada", kToday));
+}
+
+TEST(LoginsTest, WhatTheDatabaseHasNoMoreIsOver) {
+  Logins logins;
+  logins.keep(login_of("ada"), kToday);
+  logins.keep(login_of("grace"), kToday);
+  logins.keep(login_of("new"), kToday + seconds(2.0));
+  EXPECT_EQ(logins.keep_only({hash_token("ada")}, kToday + seconds(1.0)),
+            std::vector<std::string>{hash_token("grace")});
+  EXPECT_TRUE(logins.find("ada", kToday));
+  EXPECT_FALSE(logins.find("grace", kToday));
+  EXPECT_TRUE(logins.find("new", kToday)) << "began after the database was asked";
+}
+
+}  // namespace
+}  // namespace docent::telepresence
