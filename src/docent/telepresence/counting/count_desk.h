@@ -53,7 +53,7 @@ class CountDesk {
   std::unique_ptr<Statistics> statistics_;
   const std::string gateway_;
   const Time begun_;
-  Counting counting_;  ///< not yet on its way to the store
+  Counting counting_;                     ///< not yet on its way to the store
   std::uint64_t accesses_ = 0;            ///< that are counted already
   std::map<std::string, bool> requests_;  ///< on the board: whether their end is counted
   std::optional<Time> moved_;             ///< stamp of the newest odometry

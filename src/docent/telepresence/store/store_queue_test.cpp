@@ -52,7 +52,10 @@ class StoreQueueTest : public testing::Test {
     }
     ASSERT_GE(told_.size(), count);
   }
-  void put(const std::string& name, StoreQueue::Work work = [] { return Result<void>{}; }) {
+  void put(const std::string& name) {
+    put(name, [] { return Result<void>{}; });
+  }
+  void put(const std::string& name, StoreQueue::Work work) {
     queue_->put(
         std::move(work),
         [this, name](const Result<void>& done) { told_.push_back(name + (done ? "" : ": " + done.error().message)); },
