@@ -13,7 +13,8 @@ constexpr int kTriesAGoal = 3;          // times that it was held up on its way 
 constexpr double kOneGoal = 0.8;        // [m]
 constexpr int kMostChoices = 4;  // times that it set out for one place and turned away: then it lets that be, too
 constexpr double kDrivenBetween = 3.0;  // [m] at least between two such times: nearby places may take turns
-constexpr std::size_t kTriesHome = 5;   // ways home on which it was held up, then it stays
+constexpr Duration kBacksOff = std::chrono::seconds{15};  // at most
+constexpr std::size_t kTriesHome = 5;                     // ways home on which it was held up, then it stays
 
 /// The mean of five cells for each: a way over cells is a staircase.
 std::vector<Point2> smoothed(const std::vector<Point2>& cells) {
@@ -143,11 +144,23 @@ void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now)
   way_.clear();
 }
 
+/// From where it stands it does not get through, though it came through: it goes to where there is room, and tries
+/// anew.
+bool ExplorationDrive::is_backing_off(Point2 robot, Time now) {
+  constexpr double kThere = 0.25;  // [m]
+  if (!backs_off_until_) return false;
+  if (now < *backs_off_until_ && !way_.empty() && distance(robot, way_.back()) > kThere) return true;
+  backs_off_until_.reset();
+  progress_ = now;
+  return false;
+}
+
 void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, Time now, Hindrance hindrance) {
   if (state_ == State::arrived) return;
   if (last_) driven_ += distance(*last_, robot);
   last_ = robot;
   note_progress(robot, waits, now, hindrance);
+  if (is_backing_off(robot, now)) return;
   if (explore(map, robot)) {
     state_ = State::exploring;
     stuck_.reset();
@@ -156,7 +169,17 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
   if (state_ == State::returning) return go_home(map, robot, now);
   way_.clear();
   if (stuck_ && now - *stuck_ >= seconds(params_.forget)) forget_what_may_go();
-  const bool is_enclosed = way_home(map, robot).empty();
+  bool is_enclosed = way_home(map, robot).empty();
+  // It came in, so what it thinks to stand there does not shut it in: the places beyond are given up, the ways are not.
+  if (is_enclosed && stuck_ && now - *stuck_ >= seconds(params_.forget) && !obstacles_.empty()) {
+    obstacles_.clear();
+    explorer_.unblock();
+    progress_ = now;
+    set_way(explorer_.way_to_room(map, robot));
+    if (!way_.empty()) backs_off_until_ = now + kBacksOff;
+    if (backs_off_until_) return;
+    is_enclosed = way_home(map, robot).empty();
+  }
   if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;
   state_ = State::returning;
   obstacles_.clear();

@@ -92,6 +92,7 @@ class ExplorationDrive {
   void note_held_up(Point2 robot, bool stays, Time now);
   void forget_what_may_go();
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
+  [[nodiscard]] bool is_backing_off(Point2 robot, Time now);
   [[nodiscard]] bool is_stuck_for(double most_s, Time now);
   [[nodiscard]] std::vector<Point2> way_home(const OccupancyGrid& map, Point2 robot) const;
   void go_home(const OccupancyGrid& map, Point2 robot, Time now);
@@ -106,8 +107,9 @@ class ExplorationDrive {
   std::vector<Obstacle> obstacles_;  ///< where it was held up
   std::vector<Failure> failures_;
   std::vector<Choice> choices_;
-  std::optional<Point2> last_;  ///< where it was at the last plan
-  double driven_ = 0.0;         ///< [m]
+  std::optional<Point2> last_;           ///< where it was at the last plan
+  std::optional<Time> backs_off_until_;  ///< it goes to where there is room
+  double driven_ = 0.0;                  ///< [m]
   Point2 last_progress_;
   std::optional<Time> progress_;
   std::optional<Time> stuck_;  ///< since when there is no way on

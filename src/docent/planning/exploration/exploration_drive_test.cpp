@@ -114,6 +114,32 @@ TEST(ExplorationDrive, TurnsBackOnItsWayHomeWhenAWayHasOpened) {
   EXPECT_EQ(drive.state(), ExplorationDrive::State::exploring);
 }
 
+TEST(ExplorationDrive, WhatHeldItUpDoesNotShutItIn) {
+  // A corridor of 1.2 m whose left end is unknown; the robot is held up on its way there, which is its way home, too.
+  OccupancyGrid map;
+  map.frame = {240, 24, 0.05, {}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (int row = 0; row < 24; ++row)
+    for (int column = 40; column < 240; ++column) {
+      const bool is_wall = row == 0 || row == 23 || column == 239;
+      map.cells[map.frame.index({column, row})] = is_wall ? OccupancyGrid::kOccupied : OccupancyGrid::kFree;
+    }
+  ExplorationDrive drive = drive_from({2.6, 0.6});
+  const Point2 robot{7.0, 0.6};
+  Time now{};
+  const auto plan = [&](ExplorationDrive::Hindrance hindrance) {
+    drive.plan(map, robot, false, now = now + seconds(1.0), hindrance);
+    return !drive.ahead(robot).via.empty();
+  };
+  ASSERT_TRUE(plan(ExplorationDrive::Hindrance::thing));
+  int held = 0;
+  while (plan(ExplorationDrive::Hindrance::thing) && held < 100) ++held;
+  ASSERT_LT(held, 20) << "a thing in the way";
+  int shut_in = 0;
+  while (!plan(ExplorationDrive::Hindrance::unknown) && shut_in < 400) ++shut_in;
+  EXPECT_LT(shut_in, 60) << "it came this way, so it may go back";
+}
+
 TEST(ExplorationDrive, GoesRoundWhereItIsHeldUpButNotWhileItWaits) {
   const Point2 robot{1.0, 2.0};
   ExplorationDrive drive = drive_from(robot);

@@ -260,6 +260,34 @@ std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Poi
   return way;
 }
 
+std::vector<Point2> Explorer::way_to_room(const OccupancyGrid& map, Point2 robot) const {
+  constexpr double kNear = 2.5;    // [m]
+  constexpr double kRoomy = 0.35;  // [m] between centre and border
+  constexpr float kEasy = 1.2F;    // times the cost of open floor
+  const Costs known = costs_of(map, robot, true);
+  const GridFrame& frame = known.coarse.frame;
+  Clearance roomy = clearance(std::nullopt, false, false);
+  roomy.border = std::max(roomy.border, kRoomy);
+  std::vector<ValueIteration::Goal> goals;
+  for (int row = 0; row < frame.rows; ++row) {
+    for (int column = 0; column < frame.columns; ++column) {
+      const CellIndex cell{column, row};
+      const Point2 place = frame.centre(cell);
+      if (distance(place, robot) > kNear) continue;
+      if (known.costs[frame.index(cell)] > kEasy * static_cast<float>(frame.resolution)) continue;
+      if (may_stand(place, roomy)) goals.push_back({cell});
+    }
+  }
+  ValueIteration planner{frame};
+  planner.set_costs(known.costs);
+  planner.set_goals(goals);
+  const auto start = start_cell(planner, robot);
+  if (goals.empty() || !start || !planner.settle(*start, kEnough)) return {};
+  std::vector<Point2> way;
+  for (const CellIndex& step : planner.descend(*start)) way.push_back(frame.centre(step));
+  return way;
+}
+
 std::vector<Explorer::Unreached> Explorer::unreached(const OccupancyGrid& map) const {
   constexpr double kTogether = 0.5;   // [m] between cells of one group
   constexpr std::size_t kFewest = 3;  // cells: fewer are specks

@@ -87,6 +87,8 @@ class Explorer {
   /// @param robot  [m], map
   /// @returns nullopt when nothing unknown can be reached: the map is done. O(cells)
   [[nodiscard]] std::optional<Exploration> next(const OccupancyGrid& map, Point2 robot);
+  /// To the nearest place with room all round, from where a door can be approached anew; empty: none is near.
+  [[nodiscard]] std::vector<Point2> way_to_room(const OccupancyGrid& map, Point2 robot) const;
   /// The way to a place over known free floor; empty: there is none. O(cells)
   /// @param is_squeezing  with the least margins all along, for where there is no other way; doubt does not count
   [[nodiscard]] std::vector<Point2> way_to(const OccupancyGrid& map, Point2 robot, Point2 goal,
