@@ -31,10 +31,13 @@ std::string no_museum(const fs::path& given) {
   fs::path beside = folder.has_parent_path() ? folder.parent_path() : fs::path{"."};
   std::vector<std::string> names = museums_in(beside);
   if (names.empty()) names = museums_in(beside = shipped_path("museums"));
-  std::string text = folder.string() + ": there is no such folder" + did_you_mean(folder.filename().string(), names);
+  const std::string name = folder.filename().string();
+  const bool is_elsewhere = std::find(names.begin(), names.end(), name) != names.end();
+  std::string text = folder.string() + ": there is no such folder";
+  text += is_elsewhere ? "; did you mean '" + (beside / name).string() + "'?" : did_you_mean(name, names);
   if (names.empty()) return text;
   text += " (museums in " + beside.string() + ": ";
-  for (const std::string& name : names) text += (name == names.front() ? "" : ", ") + name;
+  for (const std::string& each : names) text += (each == names.front() ? "" : ", ") + each;
   return text + ")";
 }
 
