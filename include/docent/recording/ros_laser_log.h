@@ -8,8 +8,8 @@
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
+#include "docent/recording/log_odometry.h"
 #include "docent/recording/recorded_ranges.h"
-#include "docent/recording/rising_stamps.h"
 #include "docent/recording/rosbag2_database.h"
 
 namespace docent::recording {

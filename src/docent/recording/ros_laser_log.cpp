@@ -7,7 +7,6 @@
 
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
-#include "docent/motion_models/unbroken_odometry.h"
 #include "docent/recording/log_scanners.h"
 
 namespace docent::recording {
@@ -200,23 +199,17 @@ Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
 }
 
 void RosLaserLogBuilder::take_out_jumps() {
-  motion_models::UnbrokenOdometry unbroken{motion_models::BaseReach::of_any()};
-  std::vector<double> jumps;  // [s]
+  LogOdometry unbroken;
   std::vector<LoggedOdometry> kept;
   kept.reserve(log_.odometry.size());
   for (LoggedOdometry& reading : log_.odometry) {
-    const auto found = unbroken.add(reading.time, reading.odom_from_base);
-    if (found.is_late) continue;
-    if (found.jumped) jumps.push_back(to_seconds(reading.time - log_.odometry.front().time));
-    reading.odom_from_base = found.odom_from_base;
+    const auto odom_from_base = unbroken.follow(reading.time, reading.odom_from_base);
+    if (!odom_from_base) continue;
+    reading.odom_from_base = *odom_from_base;
     kept.push_back(reading);
   }
   log_.odometry = std::move(kept);
-  if (!jumps.empty())
-    log_.notes.push_back("the odometry jumped " +
-                         (jumps.size() == 1 ? std::string{"once"} : std::to_string(jumps.size()) + " times, first") +
-                         ", " + std::to_string(std::lround(jumps.front())) +
-                         " s after it began: such a step is taken for no motion");
+  if (std::string note = unbroken.note(); !note.empty()) log_.notes.push_back(std::move(note));
   for (const auto& [name, stamps] : stamps_)
     if (stamps.set_back() > 0)
       log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");

@@ -80,6 +80,8 @@ class MountCalibrator {
   [[nodiscard]] static bool rests(const Follower& follower) {
     return follower.rest_way > 0.0 && follower.rest_turn > 0.0;
   }
+  /// A clock was set, or a driver stamps otherwise than before: the mount is as it was, the delay is another one.
+  void forget_delay(Follower& follower, const MountEstimate& estimate) const;
   void forget_old(Follower& follower, const MountState& state) const;
   void judge(std::size_t scanner);
 
