@@ -57,7 +57,9 @@ TEST_F(SensorTimes, WhoStampsNothingOrRepeatsItselfIsOfNow) {
   const Time stamp = bus->now();
   for (int i = 0; i < 40; ++i, wait(0.1)) {
     const Time taken = times.of(odometry_of(stamp, 1.5, 0.0));
-    if (i > 1) EXPECT_EQ(taken, bus->now());
+    if (i > 1) {
+      EXPECT_EQ(taken, bus->now());
+    }
   }
 }
 
