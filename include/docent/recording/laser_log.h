@@ -66,9 +66,10 @@ struct LaserLog {
 /// its database (.db3).
 ///
 /// Of a ROS 2 recording it takes every sensor_msgs/LaserScan (not those under /docent/), the nav_msgs/Odometry topic
-/// with most messages (where there is none the transform odom -> base_link of /tf), interpolated at the scans' stamps, and the lasers' places from /tf_static. A
-/// laser that hangs upside down is turned over, clockwise ones are read as they are. What 0 means, what a laser sees of
-/// the robot and how far it looks is found out from the whole recording. Without odometry or places: as `notes` say.
+/// with most messages (where there is none the transform odom -> base_link of /tf), interpolated at the scans' stamps,
+/// and the lasers' places from /tf_static. A laser that hangs upside down is turned over, clockwise ones are read as
+/// they are. What 0 means, what a laser sees of the robot and how far it looks is found out from the whole recording.
+/// Without odometry or places: as `notes` say.
 ///
 /// With `with_sonars` also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none.
 ///
