@@ -90,7 +90,7 @@ class MountCalibrator {
   std::vector<Follower> followers_;
   std::vector<CalibratedScanner> results_;
   double way_ = 0.0;  ///< [m] that it has driven
-  motion_models::UnbrokenOdometry unbroken_;
+  motion_models::UnbrokenOdometry unbroken_{motion_models::BaseReach::of_any()};
   motion_models::OdometryHistory odometry_{std::chrono::seconds{6}};
 };
 

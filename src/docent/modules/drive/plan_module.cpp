@@ -77,7 +77,7 @@ class PlanModule final : public Module {
  public:
   PlanModule(transport::Bus& bus, const robot::RobotBody& body, Navigator navigator)
       : bus_{bus},
-        pose_{{body.max_speed, body.max_turn_rate}},
+        pose_{reach_of(body)},
         navigator_{std::move(navigator)},
         target_{bus_.publisher(topics::kTarget)},
         goal_state_{bus_.publisher(topics::kGoalState)},

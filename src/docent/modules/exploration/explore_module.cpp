@@ -9,6 +9,7 @@
 #include "docent/modules/shared/belief_cells.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
+#include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/modules/shared/sensor_time.h"
 #include "docent/modules/shared/stop_keeper.h"
@@ -75,13 +76,12 @@ class ExploreModule final : public Module {
  public:
   ExploreModule(const ModuleContext& context, const planning::SurveyorParams& params, planning::SurveySite site)
       : bus_{context.bus},
-        surveyor_{params,
-                  std::move(site),
-                  {mounts_of(context.config.body().scanners),
-                   context.config.body().radius,
-                   {context.config.body().max_speed, context.config.body().max_turn_rate}},
-                  planning::SurveyStore{context.state},
-                  bus_.now()},
+        surveyor_{
+            params,
+            std::move(site),
+            {mounts_of(context.config.body().scanners), context.config.body().radius, reach_of(context.config.body())},
+            planning::SurveyStore{context.state},
+            bus_.now()},
         belief_{bus_.publisher(topics::kBelief)},
         target_{bus_.publisher(topics::kTarget)},
         static_map_{bus_.publisher(topics::kStaticMap)},

@@ -18,6 +18,7 @@
 #include "docent/modules/perception/sonar_localize.h"
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/modules/shared/person_beams.h"
+#include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/modules/shared/sensor_time.h"
 
@@ -101,8 +102,6 @@ std::vector<std::string> names_of_scans(const robot::RobotBody& body) {
   for (const robot::Scanner& scanner : body.scanners) names.push_back("scan_" + scanner.name);
   return names;
 }
-
-motion_models::BaseReach reach_of(const robot::RobotBody& body) { return {body.max_speed, body.max_turn_rate}; }
 
 class LocalizeModule final : public Module {
  public:

@@ -29,7 +29,7 @@ class MapModule final : public Module {
         sights_(base_from_laser_.size()),
         live_map_{bus_.publisher(topics::kLiveMap)},
         updates_{bus_.publisher(topics::kLiveMapUpdate)},
-        pose_{{body_.max_speed, body_.max_turn_rate}} {
+        pose_{reach_of(body_)} {
     nav_msgs::OccupancyGrid map;
     map.header = {to_message(bus_.now()), "map"};
     map.info = info_of(context.museum.map.frame, bus_.now());

@@ -7,15 +7,20 @@
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
 #include "docent/motion_models/unbroken_odometry.h"
+#include "docent/robot/robot_config.h"
 
 namespace docent::modules {
+
+/// What the base can do: a longer step of its odometry is a jump.
+[[nodiscard]] inline motion_models::BaseReach reach_of(const robot::RobotBody& body) {
+  return {body.max_speed, body.max_turn_rate};
+}
 
 /// Carries the belief's best hypothesis forward with odometry. For modules that plan or draw; never for safety, which
 /// uses the whole belief. Jumps of the odometry do not move it; what it says in odometry's frame is in the frame that
 /// odometry itself speaks of at that moment.
 class PoseTracker {
  public:
-  /// @param base  what the base can do: more is a jump
   explicit PoseTracker(const motion_models::BaseReach& base = {}) : unbroken_{base} {}
 
   void on_belief(const docent_msgs::Belief& belief) {
