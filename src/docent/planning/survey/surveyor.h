@@ -39,7 +39,7 @@ struct SurveySite {
 struct SurveyBody {
   std::vector<Pose2> base_from_laser;  ///< [lasers], at least one
   double radius = 0.265;               ///< [m], > 0
-  motion_models::BaseReach reach;      ///< more than that is a jump of its odometry
+  motion_models::BaseReach reach{};    ///< more than that is a jump of its odometry
 };
 
 /// Maps a building: drives about in it by itself, or lets itself be driven, and makes the map when it has seen all or
