@@ -46,7 +46,7 @@ TEST(TransportEvent, FaultsAreNamedWithTheirLine) {
        std::vector<std::pair<std::string, std::string>>{{"drop: 0.1", "sensor"},
                                                         {"sensor: nose, drop: 0.1", "laser_rear"},
                                                         {"sensor: odom, drop: 2", "drop must be 0..1"},
-                                                        {"sensor: odom, stamps: never", "sending or receipt"},
+                                                        {"sensor: odom, stamps: never", "sending, receipt, moving or zero"},
                                                         {"sensor: odom, for: -1", "'for'"},
                                                         {"sensor: odom, jiter: 1", "jiter"}}) {
     const auto read = scenario(fields);
