@@ -26,7 +26,8 @@ class Surveyor : public ::testing::Test {
   ~Surveyor() override { std::filesystem::remove_all(state); }
 
   void begin() {
-    surveyor = std::make_unique<planning::Surveyor>(params, site, SurveyBody{testing::two_lasers(), 0.265},
+    constexpr motion_models::BaseReach kAnywhere{100.0, 100.0};
+    surveyor = std::make_unique<planning::Surveyor>(params, site, SurveyBody{testing::two_lasers(), 0.265, kAnywhere},
                                                     SurveyStore{state}, now);
   }
   /// A tenth of a second at `pose` in the room. @returns whether the moment went into the map
