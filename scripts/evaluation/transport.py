@@ -31,11 +31,28 @@ FAULTS = {
     "clocks 5 s apart": [("odom", "clock: 5"), ("sonar", "clock: -5")],
     "clocks that drift": [("odom", "drift: 0.0001"), ("laser_front", "drift: -0.0001"), ("laser_rear", "drift: 0.0002")],
     "clocks that are set back": [("odom", "set_back: 0.2, every: 60"), ("laser_front", "set_back: 0.15, every: 90")],
+    "scanners late by 30 and 200 ms, then by 150 and 80": [],
+    "late by 100 ms, stamped on receipt, then none of them": [],
+    "odometry of 10 Hz that repeats itself while it stands": [("odom", "stamps: moving")],
+    "odometry of 100 Hz without stamps": [("odom", "stamps: zero, jitter: 0.01")],
+    "bursts of a network, on receipt, from the future": [("odom", "stamps: receipt, hiccups: 60, hold: 0.2, clock: 40")],
     ALL: [("all", "jitter: 0.05, hiccups: 6, hold: 0.1, reorder: 0.02, twice: 0.02, drop: 0.1"),
           ("odom", "jitter: 0.05, hiccups: 6, hold: 0.1, reorder: 0.02, twice: 0.02, drop: 0.1, clock: 0.03, drift: 0.00005, "
            "set_back: 0.1, every: 300")],
 }
 SLICE = [ALL]
+# What is built otherwise, and what happens later, by fault.
+BUILDS = {
+    "odometry of 10 Hz that repeats itself while it stands": "odometry: {rate: 10}",
+    "odometry of 100 Hz without stamps": "odometry: {rate: 100}",
+}
+LATE = "stamps: receipt, delay:"
+LATER = {
+    "scanners late by 30 and 200 ms, then by 150 and 80": [(0, "laser_front", f"{LATE} 0.03"), (0, "laser_rear", f"{LATE} 0.2"),
+                                                           (0.4, "laser_front", f"{LATE} 0.15"), (0.4, "laser_rear", f"{LATE} 0.08")],
+    "late by 100 ms, stamped on receipt, then none of them": [(0, "laser_front", f"{LATE} 0.1"), (0, "laser_rear", f"{LATE} 0.1"),
+                                                              (0.5, "laser_front", "jitter: 0"), (0.5, "laser_rear", "jitter: 0")],
+}
 # A real one comes a minute before the end: the wheels' odometry begins anew far from where it was.
 JUMP = "odometry_jump: {x: 3, y: -2, heading: 140}"
 JUMP_BEFORE_END = 60.0  # [s]
@@ -49,7 +66,9 @@ HEADER = ["fault", "runs", "km", "contacts", "served", "worst seed", "localized 
 
 def scenario_of(fault, minutes):
     events = [f"  - {{at: 0, transport: {{sensor: {sensor}, {what}}}}}" for sensor, what in FAULTS[fault]]
-    return "\n".join(["events:", *events, f"  - {{at: {60 * minutes - JUMP_BEFORE_END:g}, {JUMP}}}"]) + "\n"
+    events += [f"  - {{at: {60 * minutes * share:g}, transport: {{sensor: {sensor}, {what}}}}}" for share, sensor, what in LATER.get(fault, [])]
+    build = [f"build: {{{BUILDS[fault]}}}"] if fault in BUILDS else []
+    return "\n".join([*build, "events:", *events, f"  - {{at: {60 * minutes - JUMP_BEFORE_END:g}, {JUMP}}}"]) + "\n"
 
 
 def read_drive(path):

@@ -21,7 +21,7 @@ struct LoggedScan {
   double bearing_step = 0.0;  ///< [rad]
   std::vector<float> ranges;  ///< [m]; +infinity: no return; NaN: an invalid reading (as REP 117 has it)
   double max_range = 0.0;     ///< [m] that this laser looks at most; 0: as LaserLog::max_range
-  Pose2 odom_from_base;       ///< odometry at the moment of the scan; of ROS 2 recordings without its jumps
+  Pose2 odom_from_base;       ///< odometry at the moment of the scan, without its jumps
   Pose2 base_from_laser;      ///< the laser's place on the robot; the same for all scans of one laser
   Pose2 logged_pose;          ///< the other pose that CARMEN writes beside odometry, as it stands in the file
   int line = 0;               ///< where in the file; 0 for recordings without lines
@@ -34,7 +34,7 @@ struct LoggedScan {
 /// One reading of odometry.
 struct LoggedOdometry {
   Time time;             ///< of the reading
-  Pose2 odom_from_base;  ///< as logged; of ROS 2 recordings without its jumps
+  Pose2 odom_from_base;  ///< as logged, without its jumps
   double linear = 0.0;   ///< [m/s], as logged
   double angular = 0.0;  ///< [rad/s]
 };
@@ -66,9 +66,10 @@ struct LaserLog {
 /// its database (.db3).
 ///
 /// Of a ROS 2 recording it takes every sensor_msgs/LaserScan (not those under /docent/), the nav_msgs/Odometry topic
-/// with most messages, without its jumps, interpolated at the scans' stamps, and the lasers' places from /tf_static. A
-/// laser that hangs upside down is turned over, clockwise ones are read as they are. What 0 means, what a laser sees of
-/// the robot and how far it looks is found out from the whole recording. Without odometry or places: as `notes` say.
+/// with most messages (where there is none the transform odom -> base_link of /tf), interpolated at the scans' stamps,
+/// and the lasers' places from /tf_static. A laser that hangs upside down is turned over, clockwise ones are read as
+/// they are. What 0 means, what a laser sees of the robot and how far it looks is found out from the whole recording.
+/// Without odometry or places: as `notes` say.
 ///
 /// With `with_sonars` also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none.
 ///

@@ -8,8 +8,8 @@
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
+#include "docent/recording/log_odometry.h"
 #include "docent/recording/recorded_ranges.h"
-#include "docent/recording/rising_stamps.h"
 #include "docent/recording/rosbag2_database.h"
 
 namespace docent::recording {
@@ -48,6 +48,7 @@ class RosLaserLogBuilder {
   [[nodiscard]] bool admits(const T& content, const std::string& topic);
   void refuse(const std::string& topic, const MessageFault& fault);
   [[nodiscard]] std::string refused_text() const;
+  void add_odometry(const geometry_msgs::TransformStamped& transform, Time log_time);
   void add_scan(const sensor_msgs::LaserScan& message, Time log_time);
   void add_ping(const sensor_msgs::Range& message, Time log_time);
   void finish_pings();
@@ -65,6 +66,8 @@ class RosLaserLogBuilder {
   std::map<std::string, std::string> base_frames_;                            ///< by odometry topic
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  ///< by child frame
   std::string base_frame_;
+  std::vector<LoggedOdometry> tf_odometry_;  ///< of a recording without any odometry topic
+  std::string tf_base_frame_;
   std::map<std::string, Refused> refused_;  ///< by topic
   RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
   LaserLog log_;

@@ -8,6 +8,7 @@ namespace docent::motion_models {
 namespace {
 
 constexpr double kFirstPeriod = 0.1;     // [s] a first interval may be shorter than usual by far
+constexpr double kPause = 5.0;           // usual intervals
 constexpr double kLongestCarried = 0.5;  // [s] for which a base is taken to have driven on through a jump
 
 bool is_same(const Pose2& a, const Pose2& b) {
@@ -28,7 +29,8 @@ UnbrokenOdometry::Gap UnbrokenOdometry::gap_to(Time stamp, bool is_set_back) con
   const double usual = period_ * std::max(1, is_set_back ? late_ : late_ + 1);
   const double hidden = is_set_back && *stamp_ - stamp >= seconds(params_.reboot) ? params_.most_held : 0.0;
   const double elapsed = std::max(usual, to_seconds(stamp - changed_));
-  return {elapsed, elapsed + params_.jitter + std::max(held_, hidden)};
+  const double driven = std::min(elapsed, std::max(usual, params_.base.longest_unheard));
+  return {elapsed, driven + params_.jitter + std::max(held_, hidden)};
 }
 
 void UnbrokenOdometry::learn(double interval) {
@@ -40,11 +42,20 @@ void UnbrokenOdometry::learn(double interval) {
   period_ += params_.learning * (std::min(interval, longest) / readings - period_);
 }
 
+bool UnbrokenOdometry::begins_anew(const Gap& gap, const Pose2& raw_from_base) const {
+  if (is_same(raw_from_base, {})) return true;  // who drives never comes back to zero to the last digit
+  const auto is_near_zero = [&](const Pose2& pose) {
+    return norm(pose.position()) <= params_.near_zero && std::abs(pose.theta.radians()) <= params_.near_zero;
+  };
+  const bool is_pause = gap.elapsed >= params_.pause && gap.elapsed >= kPause * period_;
+  return is_pause && is_near_zero(raw_from_base) && !is_near_zero(raw_from_base_);
+}
+
 bool UnbrokenOdometry::is_jump(const Gap& gap, const Pose2& raw_from_base, const Pose2& motion) const {
   const double way = norm(motion.position());
   const double turn = std::abs(motion.theta.radians());
   const bool is_noise = way <= params_.linear_noise && turn <= params_.angular_noise;
-  if (is_same(raw_from_base, {}) && !is_noise) return true;  // who drives never comes back to zero to the last digit
+  if (!is_noise && begins_anew(gap, raw_from_base)) return true;
   return way > params_.linear_noise + params_.margin * params_.base.max_speed * gap.longest ||
          turn > params_.angular_noise + params_.margin * params_.base.max_turn_rate * gap.longest;
 }

@@ -11,8 +11,11 @@ namespace docent::motion_models {
 struct BaseReach {
   double max_speed = 0.8;      ///< [m/s]
   double max_turn_rate = 1.2;  ///< [rad/s]
-  /// Of a base that nobody has described, as in a recording.
-  [[nodiscard]] static BaseReach of_any() { return {2.0, 3.0}; }
+  /// [s] for which it may go on while nobody hears its odometry: it is stopped then. Who is longer silent and comes
+  /// back elsewhere has begun anew.
+  double longest_unheard = 2.0;
+  /// Of a base that nobody has described and that was driven by others, as in a recording.
+  [[nodiscard]] static BaseReach of_any() { return {2.0, 3.0, 1e9}; }
 };
 
 struct UnbrokenOdometryParams {
@@ -27,6 +30,8 @@ struct UnbrokenOdometryParams {
   double longest_frozen = 3.0;   ///< [s] the robot may have driven on meanwhile
   double in_full_drive = 0.1;    ///< [m/s], [rad/s]: no base stands from it within one reading
   double reboot = 1.0;           ///< [s] a clock that is set back so far tells nothing of how long nothing came
+  double pause = 1.0;            ///< [s] without a message, after which who comes back near zero has begun anew
+  double near_zero = 0.05;       ///< [m], [rad] likewise: its first message may tell of some motion already
   int enough = 3;  ///< readings in succession older than the newest, by rising stamps: the clock was set back
 };
 
@@ -39,7 +44,7 @@ struct UnbrokenOdometryParams {
 /// is longer than usual is credit for the shorter ones after it, as in a leaky bucket; where stamps are regular there
 /// is none, and steps of some centimetres show. Nothing else is carried from reading to reading: whatever came before,
 /// the next step is judged by the last pose alone. A pose of exactly zero far from the last one is a jump after any
-/// pause.
+/// pause, and so is one near zero after a pause in which nothing came.
 ///
 /// A reading that is older than the last one tells nothing new (reordered or doubled), unless some come in succession
 /// by rising stamps: then the clock was set back, and they count. An odometry that repeats itself in full drive is
@@ -72,6 +77,7 @@ class UnbrokenOdometry {
   [[nodiscard]] bool counts(Time stamp);
   [[nodiscard]] Gap gap_to(Time stamp, bool is_set_back) const;
   void learn(double interval);
+  [[nodiscard]] bool begins_anew(const Gap& gap, const Pose2& raw_from_base) const;
   [[nodiscard]] bool is_jump(const Gap& gap, const Pose2& raw_from_base, const Pose2& motion) const;
   [[nodiscard]] bool in_full_drive() const;
   void leave_out_step(Time stamp, const Gap& gap, const Pose2& raw_from_base);

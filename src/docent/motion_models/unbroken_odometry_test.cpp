@@ -185,5 +185,38 @@ TEST(UnbrokenOdometry, AFasterBaseMayGoFarther) {
   }
 }
 
+TEST(UnbrokenOdometry, WhoWasNotHeardForLongAndIsElsewhereHasBegunAnew) {
+  for (const double pause : {1.5, 4.0, 60.0}) {
+    for (const Pose2& anew : {Pose2{0.01, 0.0, Angle::radians(0.004)}, Pose2{-7.0, 3.0, Angle::degrees(50.0)}}) {
+      Drive drive;
+      UnbrokenOdometry odometry;
+      for (int i = 0; i < 200; ++i, drive.step()) (void)odometry.add(drive.now, drive.odom_from_base);
+      ASSERT_GT(norm(drive.odom_from_base.position()), 1.0);
+      const auto reading = odometry.add(drive.now + seconds(pause), anew);
+      EXPECT_TRUE(reading.jumped) << pause;
+      EXPECT_LT(apart(reading.odom_from_base, drive.odom_from_base), 0.7) << "what it may have rolled on";
+    }
+  }
+}
+
+TEST(UnbrokenOdometry, WhoWasNotHeardAndIsNearbyHasDriven) {
+  Drive drive;
+  UnbrokenOdometry odometry;
+  for (int i = 0; i < 200; ++i, drive.step()) (void)odometry.add(drive.now, drive.odom_from_base);
+  for (const double pause : {0.5, 1.5, 30.0}) {
+    drive.now = drive.now + seconds(pause);
+    drive.odom_from_base = drive.odom_from_base * Pose2{0.5, 0.0, Angle::radians(0.3)};
+    EXPECT_FALSE(odometry.add(drive.now, drive.odom_from_base).jumped) << pause;
+    for (int i = 0; i < 20; ++i, drive.step())
+      EXPECT_FALSE(odometry.add(drive.now + seconds(kStep), drive.odom_from_base).jumped);
+  }
+}
+
+TEST(UnbrokenOdometry, InARecordingNobodyStoppedIt) {
+  UnbrokenOdometry odometry{BaseReach::of_any()};
+  for (int i = 0; i < 20; ++i) (void)odometry.add(time_from_seconds(0.05 * i), {1.0, 0.0, {}});
+  EXPECT_FALSE(odometry.add(time_from_seconds(11.0), {9.0, 0.0, {}}).jumped);
+}
+
 }  // namespace
 }  // namespace docent::motion_models

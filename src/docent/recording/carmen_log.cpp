@@ -10,6 +10,7 @@
 
 #include "docent/base/files.h"
 #include "docent/messages/message_fitness.h"
+#include "docent/recording/log_odometry.h"
 
 namespace docent::recording {
 namespace {
@@ -126,6 +127,7 @@ class Collector {
     settle_no_return();
     settle_mount(false, "robot_frontlaser_offset");
     settle_mount(true, "robot_rearlaser_offset");
+    take_out_jumps();
     return std::move(log_);
   }
   void note(std::string text) { log_.notes.push_back(std::move(text)); }
@@ -226,20 +228,41 @@ class Collector {
       done = end;
     }
   }
+  /// Readings and scans, in the order of the file.
+  void take_out_jumps() {
+    LogOdometry unbroken{!log_.times_are_invented};
+    std::size_t done = 0;
+    for (std::size_t i = 0; i <= log_.scans.size(); ++i) {
+      const std::size_t end = i < log_.scans.size() ? scans_before_[i] : log_.odometry.size();
+      for (; done < end; ++done) {
+        LoggedOdometry& reading = log_.odometry[done];
+        reading.odom_from_base = unbroken.follow_scan(reading.time, reading.odom_from_base);
+      }
+      if (i < log_.scans.size())
+        log_.scans[i].odom_from_base = unbroken.follow_scan(log_.scans[i].time, log_.scans[i].odom_from_base);
+    }
+    if (std::string text = unbroken.note(); !text.empty()) note(std::move(text));
+  }
   void take_clock(double Clocks::*clock) {
     std::size_t raised = 0;
+    RisingStamps front, rear, readings;
     Time last = time_from_seconds(scan_clocks_.front().*clock);
     for (std::size_t i = 0; i < log_.scans.size(); ++i) {
-      const Time time = time_from_seconds(scan_clocks_[i].*clock);
+      RisingStamps& stamps = log_.scans[i].rear ? rear : front;
+      const Time time = stamps.follow(time_from_seconds(scan_clocks_[i].*clock));
       raised += time < last ? 1 : 0;
       last = log_.scans[i].time = std::max(last, time);
     }
+    if (front.set_back() + rear.set_back() > 0)
+      note("the clock of the scans was set back: later stamps are moved as far");
     if (raised > 0) note(std::to_string(raised) + " scans had a time before the scan before them");
     last = log_.odometry.empty() ? Time{} : time_from_seconds(odometry_clocks_.front().message);
     for (std::size_t i = 0; i < log_.odometry.size(); ++i) {
       const double seconds_logged = odometry_clocks_[i].*clock;
-      if (std::isfinite(seconds_logged))
-        last = i == 0 ? time_from_seconds(seconds_logged) : std::max(last, time_from_seconds(seconds_logged));
+      if (std::isfinite(seconds_logged)) {
+        const Time time = readings.follow(time_from_seconds(seconds_logged));
+        last = i == 0 ? time : std::max(last, time);
+      }
       log_.odometry[i].time = last;
     }
   }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 
 namespace docent::recording {
@@ -31,6 +33,62 @@ TEST(CarmenLog, BearingsFollowTheNumberOfBeams) {
     EXPECT_NEAR(scan.bearing_step, step[i] * kDegree, 1e-12);
     EXPECT_NEAR(scan.bearing(scan.ranges.size() - 1).degrees(), last[i], 1e-9);
   }
+}
+
+/// A drive along x at 0.5 m/s, scans at 5 Hz, odometry in between; `stamp` is what the file says of the true time,
+/// `raw` what odometry says of the true x.
+std::string drive_of(const std::function<double(double)>& stamp, const std::function<double(double)>& raw) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) {
+    const double time = 0.1 * i;
+    const std::string x = std::to_string(raw(0.5 * time));
+    const std::string at = std::to_string(100.0 + stamp(time));
+    if (i % 2 == 0) {
+      text += scan_line(180, "1", at, "FLASER", x + " 0 0 " + x + " 0 0");
+    } else {
+      text += "ODOM " + x + " 0 0 0.5 0 0 " + at + " host " + at + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(CarmenLog, WheelsThatBeginAnewAreOneJump) {
+  const auto log = parse_carmen_log(
+      drive_of([](double time) { return time; }, [](double x) { return x < 2.5 ? 7.0 + x : x - 2.5; }), "log");
+  ASSERT_TRUE(log) << log.error().message;
+  ASSERT_EQ(log->notes.size(), 1U);
+  EXPECT_NE(log->notes.front().find("the odometry jumped once, 5 s"), std::string::npos) << log->notes.front();
+  for (const LoggedScan& scan : log->scans)
+    EXPECT_NEAR(scan.odom_from_base.x, 7.0 + 0.5 * (to_seconds(scan.time) - 100.0), 0.06);
+  for (const LoggedOdometry& reading : log->odometry)
+    EXPECT_NEAR(reading.odom_from_base.x, 7.0 + 0.5 * (to_seconds(reading.time) - 100.0), 0.06);
+  EXPECT_NEAR(log->scans.back().logged_pose.x, 2.4, 0.01) << "as it stands in the file";
+}
+
+TEST(CarmenLog, LateAndDoubledStampsAreNoJumps) {
+  const auto as_it_is = [](double x) { return x; };
+  for (const double back : {0.05, 0.3, 2.0, 500.0}) {
+    // One is late, and one is a double.
+    auto text = drive_of([&](double time) { return time > 4.05 && time < 4.15 ? time - back : time; }, as_it_is);
+    const std::size_t line = text.find("FLASER", text.size() / 2);
+    const std::string twice = text.substr(line, text.find('\n', line) + 1 - line);
+    text.insert(line, twice);
+    const auto log = parse_carmen_log(text, "log");
+    ASSERT_TRUE(log) << log.error().message;
+    for (const std::string& note : log->notes) EXPECT_EQ(note.find("jumped"), std::string::npos) << note;
+    for (const LoggedScan& scan : log->scans)
+      EXPECT_NEAR(scan.odom_from_base.x, scan.logged_pose.x, 1e-9) << "no motion is left out";
+  }
+}
+
+TEST(CarmenLog, AClockThatWasSetBackGoesOn) {
+  const auto log = parse_carmen_log(
+      drive_of([](double time) { return time < 5.0 ? time : time - 60.0; }, [](double x) { return x; }), "log");
+  ASSERT_TRUE(log) << log.error().message;
+  EXPECT_GT(to_seconds(log->scans.back().time), 109.0);
+  for (const LoggedScan& scan : log->scans) EXPECT_NEAR(scan.odom_from_base.x, scan.logged_pose.x, 1e-9);
+  const auto is_said = [](const std::string& note) { return note.find("set back") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(log->notes.begin(), log->notes.end(), is_said));
 }
 
 TEST(CarmenLog, ANarrowScannerSaysItsResolution) {

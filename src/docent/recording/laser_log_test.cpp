@@ -172,6 +172,30 @@ std::vector<Raw> drive_with(const std::function<void(int i, nav_msgs::Odometry& 
   return messages;
 }
 
+TEST_F(LaserLogFolder, WhereNoTopicTellsOdometryItsTransformDoes) {
+  std::vector<Raw> messages = drive();
+  for (Raw& message : messages) {
+    if (message.topic != "/odom") continue;
+    const auto odometry = *decode_cdr<nav_msgs::Odometry>(message.data);
+    const auto& pose = odometry.pose.pose;
+    tf2_msgs::TFMessage transforms;
+    transforms.transforms = {
+        {{odometry.header.stamp, "map"}, "odom", {{5.0, 5.0, 0.0}, to_quaternion(Angle{})}},
+        {odometry.header, "base_link", {{pose.position.x, pose.position.y, 0.0}, pose.orientation}}};
+    transforms.transforms.back().header.frame_id = "odom";
+    message.topic = "/tf";
+    message.type = tf2_msgs::TFMessage::kType;
+    message.data = encode_cdr(transforms);
+  }
+  write_mcap(folder_ / "tf.mcap", messages);
+  const auto log = read_laser_log(folder_ / "tf.mcap");
+  ASSERT_TRUE(log) << log.error().message;
+  ASSERT_EQ(log->notes.size(), 1U);
+  EXPECT_NE(log->notes.front().find("of /tf is taken"), std::string::npos) << log->notes.front();
+  for (const LoggedScan& scan : log->scans)
+    EXPECT_NEAR(scan.odom_from_base.x, 0.5 * (to_seconds(scan.time) - 100.0), 0.03);
+}
+
 TEST_F(LaserLogFolder, AnOdometryThatBeginsAnewIsNoMotionAndIsSaid) {
   for (const Pose2& anew : {Pose2{}, Pose2{-7.0, 3.0, Angle::degrees(100)}}) {
     write_mcap(folder_ / "anew.mcap", drive_with([&](int i, nav_msgs::Odometry& odometry) {

@@ -7,7 +7,6 @@
 
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
-#include "docent/motion_models/unbroken_odometry.h"
 #include "docent/recording/log_scanners.h"
 
 namespace docent::recording {
@@ -40,6 +39,11 @@ sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
 }
 
 std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
+
+bool is_odometry(const geometry_msgs::TransformStamped& transform) {
+  const std::string child = without_slash(transform.child_frame_id);
+  return without_slash(transform.header.frame_id) == "odom" && (child == "base_link" || child == "base_footprint");
+}
 
 }  // namespace
 
@@ -91,6 +95,11 @@ Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
     reading.angular = odometry->twist.twist.angular.z;
     odometry_[message.topic].push_back(reading);
     base_frames_[message.topic] = without_slash(odometry->child_frame_id);
+  } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf") {
+    const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
+    if (!transforms) return damaged();
+    for (const auto& transform : transforms->transforms)
+      if (is_odometry(transform) && admits(transform, message.topic)) add_odometry(transform, message.time);
   } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf_static") {
     const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
     if (!transforms) return damaged();
@@ -98,6 +107,17 @@ Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
       if (admits(transform, message.topic)) static_transforms_[without_slash(transform.child_frame_id)] = transform;
   }
   return {};
+}
+
+void RosLaserLogBuilder::add_odometry(const geometry_msgs::TransformStamped& transform, Time log_time) {
+  LoggedOdometry reading;
+  reading.time = from_message(transform.header.stamp);
+  if (reading.time.nanoseconds == 0) reading.time = log_time;
+  reading.time = stamps_["/tf"].follow(reading.time);
+  reading.odom_from_base = from_message(geometry_msgs::Pose{
+      {transform.transform.translation.x, transform.transform.translation.y, 0.0}, transform.transform.rotation});
+  tf_odometry_.push_back(reading);
+  tf_base_frame_ = without_slash(transform.child_frame_id);
 }
 
 void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time log_time) {
@@ -200,23 +220,17 @@ Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
 }
 
 void RosLaserLogBuilder::take_out_jumps() {
-  motion_models::UnbrokenOdometry unbroken{motion_models::BaseReach::of_any()};
-  std::vector<double> jumps;  // [s]
+  LogOdometry unbroken;
   std::vector<LoggedOdometry> kept;
   kept.reserve(log_.odometry.size());
   for (LoggedOdometry& reading : log_.odometry) {
-    const auto found = unbroken.add(reading.time, reading.odom_from_base);
-    if (found.is_late) continue;
-    if (found.jumped) jumps.push_back(to_seconds(reading.time - log_.odometry.front().time));
-    reading.odom_from_base = found.odom_from_base;
+    const auto odom_from_base = unbroken.follow(reading.time, reading.odom_from_base);
+    if (!odom_from_base) continue;
+    reading.odom_from_base = *odom_from_base;
     kept.push_back(reading);
   }
   log_.odometry = std::move(kept);
-  if (!jumps.empty())
-    log_.notes.push_back("the odometry jumped " +
-                         (jumps.size() == 1 ? std::string{"once"} : std::to_string(jumps.size()) + " times, first") +
-                         ", " + std::to_string(std::lround(jumps.front())) +
-                         " s after it began: such a step is taken for no motion");
+  if (std::string note = unbroken.note(); !note.empty()) log_.notes.push_back(std::move(note));
   for (const auto& [name, stamps] : stamps_)
     if (stamps.set_back() > 0)
       log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
@@ -238,7 +252,11 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
   if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());
   const auto most = std::max_element(odometry_.begin(), odometry_.end(),
                                      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  if (most == odometry_.end()) {
+  if (most == odometry_.end() && !tf_odometry_.empty()) {
+    log_.odometry = std::move(tf_odometry_);
+    base_frame_ = tf_base_frame_;
+    log_.notes.emplace_back("there is no odometry topic: the transform odom -> " + base_frame_ + " of /tf is taken");
+  } else if (most == odometry_.end()) {
     log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
   } else {
     log_.odometry = std::move(most->second);

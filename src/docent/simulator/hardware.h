@@ -26,8 +26,9 @@ struct Hardware {
   int infrareds = 24;             ///< likewise
   double infrared_radius = 0.25;  ///< [m]
   bool has_tactile = true;
-  double odometry_way = 1.0;   ///< metres that odometry counts for each true one
-  double odometry_turn = 1.0;  ///< likewise of turns
+  double odometry_way = 1.0;    ///< metres that odometry counts for each true one
+  double odometry_turn = 1.0;   ///< likewise of turns
+  double odometry_rate = 20.0;  ///< [Hz]
 };
 
 }  // namespace docent::simulator

@@ -85,6 +85,7 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
       infrared_{infrareds_of(hardware), rng.stream("infrared")},
       fault_rng_{rng.stream("faults")},
       wire_rng_{rng.stream("wires")},
+      odometry_rate_{hardware.odometry_rate},
       scale_{hardware.odometry_way, hardware.odometry_turn},
       has_tactile_{hardware.has_tactile},
       pings_{bus.publisher(topics::kSonar)},
@@ -143,7 +144,8 @@ template <class T>
 void Instruments::send(Sensor sensor, const transport::Publisher<T>& publisher, T message, Time now, double later) {
   auto& line = lines_[static_cast<std::size_t>(sensor)];
   const bool is_wired = line && now < line->until;
-  const auto deliveries = is_wired ? line->wire.carry(now) : std::vector<Wire::Delivery>{{Duration{}, now}};
+  const bool is_news = sensor != Sensor::odom || is_odometry_news_;
+  const auto deliveries = is_wired ? line->wire.carry(now, is_news) : std::vector<Wire::Delivery>{{Duration{}, now}};
   for (const Wire::Delivery& delivery : deliveries) {
     message.header.stamp = to_message(delivery.stamp);
     const Duration after = delivery.after + seconds(later);
@@ -195,7 +197,8 @@ void Instruments::jump(const Pose2& base_from_base, double over) {
                 Angle::radians(share * base_from_base.theta.radians())};
 }
 
-void Instruments::publish_odometry(Time now, const Body& body) {
+void Instruments::publish_odometry(Time now, std::size_t step, const Body& body) {
+  if (!is_due(step, odometry_rate_)) return;
   nav_msgs::Odometry message;
   message.header = {to_message(now), "odom"};
   message.child_frame_id = "base_link";
@@ -211,6 +214,8 @@ void Instruments::publish_odometry(Time now, const Body& body) {
     message.twist.twist.linear.x = motion.x / dt;
     message.twist.twist.angular.z = motion.theta.radians() / dt;
   }
+  is_odometry_news_ = !has_odometry_ || norm((inverse(last_pose_) * odometry).position()) > 0.0 ||
+                      (odometry.theta - last_pose_.theta).radians() != 0.0;
   has_odometry_ = true;
   last_odometry_ = now;
   last_pose_ = odometry;

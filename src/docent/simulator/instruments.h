@@ -39,7 +39,8 @@ class Instruments {
   /// The odometry makes a step, in the base's frame, that the base does not: at once, or in equal parts [s] long.
   void jump(const Pose2& base_from_base, double over);
 
-  void publish_odometry(Time now, const Body& body);
+  /// When it is due. `step`: counts steps of 10 ms.
+  void publish_odometry(Time now, std::size_t step, const Body& body);
   /// The scanners of which a sweep is due. `step`: counts steps of 10 ms.
   void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Disc> people);
   /// @param slot  counts steps of 10 ms: the sonars fire in groups of three, each every 0.4 s
@@ -105,8 +106,10 @@ class Instruments {
   Time last_odometry_{};
   Pose2 last_pose_{};
   bool has_odometry_ = false;
-  Pose2 jump_part_;     ///< base_from_base that the next readings are off
-  int jump_parts_ = 0;  ///< so many readings
+  double odometry_rate_;          ///< [Hz]
+  bool is_odometry_news_ = true;  ///< it says something else than before
+  Pose2 jump_part_;               ///< base_from_base that the next readings are off
+  int jump_parts_ = 0;            ///< so many readings
   OdometryScale scale_;
   Pose2 odom_from_body_odom_;  ///< what jumps have made of the wheels' odometry
   bool has_tactile_;

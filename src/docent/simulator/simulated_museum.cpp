@@ -222,7 +222,7 @@ void SimulatedMuseum::Impl::watch_people() {
 }
 
 void SimulatedMuseum::Impl::publish() {
-  if (every(5)) instruments_.publish_odometry(time_, body_);
+  instruments_.publish_odometry(time_, steps_, body_);
   instruments_.publish_scans(time_, steps_, body_.pose(), people_);
   if (cameras_) cameras_->step(time_, steps_, body_.pose(), body_.params().radius, crowd_.people());
   instruments_.publish_sonar(time_, steps_, body_.pose(), people_);

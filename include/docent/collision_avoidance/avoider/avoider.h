@@ -15,6 +15,7 @@
 #include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/clocks/driver_stamps.h"
 #include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 #include "docent/collision_avoidance/local_planner/local_planner.h"
@@ -168,6 +169,7 @@ class Avoider {
   ContactWatch contact_;
   PositionDoubt doubt_;
   LocalTime local_time_;
+  OdometryStamps odometry_stamps_;
   motion_models::UnbrokenOdometry unbroken_;
   struct SweepOrder {
     std::optional<Time> newest;  ///< stamp

@@ -55,6 +55,7 @@ Result<void> build_wrongly(simulator::Hardware& hardware, const simulator::Build
     scanner->late = late;
   }
   hardware.odometry_way = errors.way;
+  hardware.odometry_rate = errors.rate;
   hardware.odometry_turn = errors.turn;
   return {};
 }

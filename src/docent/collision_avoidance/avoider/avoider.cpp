@@ -34,6 +34,8 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vec
       max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
 
 void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
+  const bool stands = state.velocity.linear == 0.0 && state.velocity.angular == 0.0;
+  stamp = odometry_stamps_.mend(now, stamp, state.odom_from_base, stands);
   const Time taken = local_time_.receive("odometry", now, stamp);
   const auto unbroken = unbroken_.add(taken, state.odom_from_base);
   inputs_.hear_odometry(now, stamp, state, unbroken.jumped, commands_);
@@ -46,6 +48,7 @@ void Avoider::add_odometry(Time now, Time stamp, const BaseState& state) {
 
 void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   if (sensor >= inputs_.lasers() || odometry_.empty()) return;
+  sweep.stamp = stamp_or(sweep.stamp, now);
   inputs_.hear_sweep(now, sweep.stamp, sensor);
   sweep.stamp = local_time_.receive("laser " + std::to_string(sensor), now, sweep.stamp) - seconds(sweep.late);
   if (was_overtaken(sensor, sweep.stamp)) return;
@@ -66,6 +69,7 @@ bool Avoider::was_overtaken(std::size_t sensor, Time stamp) {
 
 void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {
   if (odometry_.empty()) return;
+  reading.stamp = stamp_or(reading.stamp, now);
   const Time stamp = std::exchange(reading.stamp, local_time_.receive("sonars", now, reading.stamp));
   const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
   inputs_.hear_sonar(now, stamp, index, reading, odom_from_base);
@@ -74,6 +78,7 @@ void Avoider::add_sonar(Time now, std::size_t index, SonarReading reading) {
 
 void Avoider::add_infrared(Time now, std::size_t index, SonarReading reading) {
   if (odometry_.empty()) return;
+  reading.stamp = stamp_or(reading.stamp, now);
   const Time stamp = std::exchange(reading.stamp, local_time_.receive("infrared", now, reading.stamp));
   const Pose2 odom_from_base = odometry_.pose_at(reading.stamp);
   inputs_.hear_infrared(now, stamp, index, reading, odom_from_base);
@@ -83,12 +88,14 @@ void Avoider::add_infrared(Time now, std::size_t index, SonarReading reading) {
 void Avoider::add_lines(Time now, Time stamp, const std::string& source, double lifetime,
                         std::span<const Segment> in_base) {
   if (odometry_.empty()) return;
+  stamp = stamp_or(stamp, now);
   inputs_.hear_lines(now, stamp, source);
   const Time taken = local_time_.receive_from_picture("camera " + source, now, stamp);
   surroundings_.memory().add_lines(source, taken, lifetime, in_base, odometry_.pose_at(taken));
 }
 
 void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
+  stamp = stamp_or(stamp, now);
   inputs_.feel(now, stamp, segments, scan);
   if (odometry_.empty()) return;
   const Time taken = local_time_.receive("tactile", now, stamp);

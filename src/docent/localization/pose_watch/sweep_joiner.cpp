@@ -1,6 +1,7 @@
 #include "docent/localization/pose_watch/sweep_joiner.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace docent::localization {
 
@@ -40,8 +41,8 @@ std::optional<SweepJoiner::Joined> SweepJoiner::join(const OdometryTrail& odomet
   joined.odom_from_base = *odom_from_base;
   for (Laser& laser : lasers_) {
     const auto then = odometry.at(laser.stamp);
-    laser.is_new = false;
-    if (laser.ranges.empty() || joined.stamp - laser.stamp > kTogether || !then) continue;
+    const Duration together = std::exchange(laser.is_new, false) ? kNewTogether : kTogether;
+    if (laser.ranges.empty() || joined.stamp - laser.stamp > together || !then) continue;
     const Pose2 base_from_then = inverse(*odom_from_base) * *then;
     sensor_models::LaserReading reading = laser.reading;
     reading.ranges = laser.ranges;

@@ -17,6 +17,8 @@ namespace docent::localization {
 class SweepJoiner {
  public:
   static constexpr Duration kTogether = std::chrono::milliseconds{250};  ///< scans that make one sweep
+  /// Likewise of what is new: one laser may be later than the other by as much as can be found out.
+  static constexpr Duration kNewTogether = std::chrono::milliseconds{450};
 
   /// @param base_from_laser  [lasers] where they are mounted
   explicit SweepJoiner(const std::vector<Pose2>& base_from_laser);

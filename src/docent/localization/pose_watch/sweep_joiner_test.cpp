@@ -55,10 +55,21 @@ TEST_F(SweepJoiner, TheStampIsThatOfTheNewestAndOlderOnesAreMovedByOdometry) {
 TEST_F(SweepJoiner, AScanOfAnotherTimeIsLeftOut) {
   for (int i = 0; i <= 10; ++i) odometry.add(at(0.1 * i), {});
   see(1, at(0.0), 3.0F);
-  see(0, at(0.3), 2.0F);
+  see(0, at(0.5), 2.0F);
   EXPECT_EQ(joiner.join(odometry)->sweep.beams.size(), 3U);
   see(0, at(0.2), 2.0F);
   EXPECT_EQ(joiner.join(odometry)->sweep.beams.size(), 6U) << "an old scan counts as long as it is of about that time";
+}
+
+TEST_F(SweepJoiner, ALaserThatIsLateTakesPart) {
+  for (int i = 0; i <= 10; ++i) odometry.add(at(0.1 * i), {});
+  for (int i = 5; i <= 9; ++i) {
+    see(1, at(0.1 * i - 0.35), 3.0F);
+    see(0, at(0.1 * i), 2.0F);
+    EXPECT_EQ(joiner.join(odometry)->sweep.beams.size(), 6U);
+  }
+  see(0, at(1.0), 2.0F);
+  EXPECT_EQ(joiner.join(odometry)->sweep.beams.size(), 3U) << "what is not new is too old";
 }
 
 TEST_F(SweepJoiner, WaitsForTheOdometryOfThen) {

@@ -10,14 +10,17 @@ namespace docent::mapping {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::size_t kNewest = 12;   // pairs that may tell that a mount was knocked
-constexpr double kStrange = 6.0;      // mean squared sigmas of them, where some 3 are usual
-constexpr std::size_t kAnd = 5;       // characters
-constexpr std::size_t kFitEvery = 3;  // pairs, of what is settled
-constexpr double kMuchBetter = 0.6;   // of that, with another mount
-constexpr double kHysteresis = 0.6;   // of what is named: below it nothing is corrected any more
-constexpr double kKnownEnough = 1.5;  // of the limit from which on robot.yaml is contradicted: a standard deviation
-constexpr double kBeyondDoubt = 8.0;  // standard deviations
+constexpr std::size_t kNewest = 12;      // pairs that may tell that a mount was knocked
+constexpr double kStrange = 6.0;         // mean squared sigmas of them, where some 3 are usual
+constexpr std::size_t kNewestDelay = 8;  // pairs that may tell that stamps are late by another time
+constexpr double kStrangeDelay = 4.5;    // mean squared sigmas of them
+constexpr double kOrdinaryPair = 9.0;    // squared sigmas; who meets another one looks again at once
+constexpr std::size_t kAnd = 5;          // characters
+constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled
+constexpr double kMuchBetter = 0.6;      // of that, with another mount
+constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more
+constexpr double kKnownEnough = 1.5;     // of the limit from which on robot.yaml is contradicted: a standard deviation
+constexpr double kBeyondDoubt = 8.0;     // standard deviations
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
   char buffer[160];
@@ -91,7 +94,9 @@ MountCalibrator::MountCalibrator(const MountCalibratorParams& params, std::vecto
 
 void MountCalibrator::move(Time stamp, const Pose2& odom_from_base) {
   const auto reading = unbroken_.add(stamp, odom_from_base);
-  if (reading.jumped)
+  if (reading.is_late) return;
+  if (reading.is_set_back) odometry_.forget();
+  if (reading.jumped || reading.is_set_back)
     for (Follower& follower : followers_) follower.sweeps.forget();
   if (!odometry_.empty()) {
     const Pose2 moved = inverse(odometry_.latest()) * reading.odom_from_base;
@@ -132,8 +137,12 @@ bool MountCalibrator::work() {
     while (follower.pairs.size() > static_cast<std::size_t>(params_.pairs)) follower.pairs.pop_front();
     if (pairs.empty()) continue;
     follower.unfitted += pairs.size();
-    if (results_[i].is_settled) rest(follower);
-    if (follower.unfitted < (results_[i].is_settled ? kFitEvery : 1)) continue;
+    const MountState& state = results_[i].estimate.state;
+    const bool rests = results_[i].is_settled && std::all_of(pairs.begin(), pairs.end(), [&](const MotionPair& pair) {
+                         return residual_of(pair, state, params_.fit) <= kOrdinaryPair;
+                       });
+    if (rests) rest(follower);
+    if (follower.unfitted < (rests ? kFitEvery : 1)) continue;
     follower.unfitted = 0;
     fit(i);
     is_new = true;
@@ -156,8 +165,30 @@ void MountCalibrator::forget_old(Follower& follower, const MountState& state) co
   follower.remembered = 0;
 }
 
+void MountCalibrator::forget_delay(Follower& follower, const MountEstimate& estimate) const {
+  if (follower.pairs.size() + follower.remembered < 2 * kNewestDelay || follower.pairs.size() < kNewestDelay) return;
+  const auto older = follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewestDelay);
+  const std::vector<MotionPair> newest(older, follower.pairs.end());
+  double strange = 0.0;
+  for (const MotionPair& pair : newest) strange += std::min(9.0, residual_of(pair, estimate.state, params_.fit));
+  strange /= static_cast<double>(kNewestDelay);
+  if (strange < kStrangeDelay) return;
+  MountPrior prior{.state = estimate.state, .sigma = estimate.covariance.diagonal().cwiseSqrt()};
+  prior.sigma[kMountDelay] = params_.fit.delay_prior;
+  const MountEstimate now = fit_mount(newest, prior, params_.fit);
+  const double apart = std::abs(now.state.delay - estimate.state.delay);
+  if (now.misfit > kMuchBetter * strange ||
+      !is_beyond(apart, now.sigma(kMountDelay), 0.5 * params_.named_delay, params_.sigmas))
+    return;
+  prior.state.delay = now.state.delay;
+  follower.prior = prior;
+  follower.remembered += follower.pairs.size() - kNewestDelay;
+  follower.pairs.erase(follower.pairs.begin(), older);
+}
+
 void MountCalibrator::fit(std::size_t scanner) {
   Follower& follower = followers_[scanner];
+  forget_delay(follower, results_[scanner].estimate);
   const std::size_t before = follower.pairs.size() + follower.remembered;
   forget_old(follower, results_[scanner].estimate.state);
   if (follower.pairs.size() + follower.remembered < before)

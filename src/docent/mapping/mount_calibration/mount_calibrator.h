@@ -80,6 +80,8 @@ class MountCalibrator {
   [[nodiscard]] static bool rests(const Follower& follower) {
     return follower.rest_way > 0.0 && follower.rest_turn > 0.0;
   }
+  /// A clock was set, or a driver stamps otherwise than before: the mount is as it was, the delay is another one.
+  void forget_delay(Follower& follower, const MountEstimate& estimate) const;
   void forget_old(Follower& follower, const MountState& state) const;
   void judge(std::size_t scanner);
 
@@ -88,7 +90,7 @@ class MountCalibrator {
   std::vector<Follower> followers_;
   std::vector<CalibratedScanner> results_;
   double way_ = 0.0;  ///< [m] that it has driven
-  motion_models::UnbrokenOdometry unbroken_;
+  motion_models::UnbrokenOdometry unbroken_{motion_models::BaseReach::of_any()};
   motion_models::OdometryHistory odometry_{std::chrono::seconds{6}};
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "docent/mapping/mount_calibration/testing.h"
 
 namespace docent::mapping::mount_calibrator_test {
@@ -81,6 +83,35 @@ TEST(MountCalibrator, FindsLateStampsOfAnyField) {
     EXPECT_NEAR(calibrator.scanners().front().estimate.state.delay, late, 0.02);
     EXPECT_NEAR(calibrator.scanners().front().delay, late, 0.02);
     expect_near(calibrator, {}, 0.03, 1.0);
+  }
+}
+
+TEST(MountCalibrator, FollowsADelayThatChanges) {
+  for (const double change : {0.15, -0.2, 0.28}) {
+    MountCalibrator calibrator{{}, {{"front", {0.1, 0.0, {}}}}};
+    testing::TestDrive drive{{0.1, 0.0, {}}, 0.02, {}, 3};
+    double way = 0.0;
+    double known_after = -1.0;  // [m]
+    bool was_known = true;
+    std::optional<Pose2> last;
+    drive.go(
+        90.0,
+        [&](Time stamp, const Pose2& odom) {
+          if (last) way += distance(last->position(), odom.position());
+          last = odom;
+          calibrator.move(stamp, odom);
+        },
+        [&](Time stamp, const auto& reading) {
+          calibrator.see(0, stamp + seconds(way > 45.0 ? change : 0.0), reading);
+          calibrator.work();
+          if (way > 45.0) was_known = was_known && calibrator.is_known();
+          if (known_after < 0.0 && std::abs(calibrator.scanners().front().delay - 0.02 - change) < 0.03)
+            known_after = way - 45.0;
+        });
+    EXPECT_NEAR(calibrator.scanners().front().estimate.state.delay, 0.02 + change, 0.02);
+    EXPECT_TRUE(known_after > 0.0 && known_after < 25.0) << known_after << " m after " << change << " s";
+    EXPECT_TRUE(was_known) << "where it is mounted is known all the while";
+    expect_near(calibrator, {0.1, 0.0, {}}, 0.03, 1.0);
   }
 }
 

@@ -34,7 +34,7 @@ Result<collision_avoidance::BaseLimits> limits_of(const robot::RobotBody& body) 
 
 /// With the stamp of its driver: `avoid` takes the clocks of all sensors into its own time.
 collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
-  return {from_message(scan.header.stamp) + seconds(place.delay),
+  return {from_message(scan.header.stamp),
           place.base_from_sensor,
           scan.angle_min,
           scan.angle_increment,

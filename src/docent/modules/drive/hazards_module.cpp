@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "docent/collision_avoidance/clocks/driver_stamps.h"
+#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
 #include "docent/collision_avoidance/virtual_measurements/mount_doubt.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
@@ -30,7 +32,7 @@ class HazardsModule final : public Module {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief,
                                         [this](const docent_msgs::Belief& belief) { measure(belief); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
-      odometry_ = Odometry{from_message(odometry.header.stamp), from_message(odometry.pose.pose)};
+      odometry_ = Odometry{taken(odometry), from_message(odometry.pose.pose)};
       if (last_ && bus_.now() - published_ >= kMovingPeriod && is_carried()) publish();
     });
     bus_.subscribe<docent_msgs::Calibration>(topics::kCalibration,
@@ -58,7 +60,10 @@ class HazardsModule final : public Module {
   static constexpr double kCarriedFor = 0.6;  // [s]
   static constexpr double kCarriedWay = 1.2;  // [m] more is a jump of odometry and no way
   static constexpr double kMoved = 0.01;      // [m]
-  static constexpr double kTurned = 0.02;     // [rad]
+  /// [s]: a clock that is farther behind is another one. Less than any message takes is left to those who hear the
+  /// scans, too: what they take for ours, as they do what comes quicker than that, must be so here.
+  static constexpr double kHonestWay = 0.3;
+  static constexpr double kTurned = 0.02;  // [rad]
 
   struct Odometry {
     Time stamp{};
@@ -70,6 +75,11 @@ class HazardsModule final : public Module {
     std::array<collision_avoidance::VirtualMeasurements::Ranges, 2> ranges;  ///< hazards, border
   };
 
+  [[nodiscard]] Time taken(const nav_msgs::Odometry& odometry) {
+    const Time now = bus_.now();
+    return local_time_.receive("odometry", now,
+                               collision_avoidance::stamp_or(from_message(odometry.header.stamp), now));
+  }
   /// The way since the belief, where odometry tells of one.
   [[nodiscard]] std::optional<Pose2> step() const {
     if (!odometry_ || !(last_->at.stamp < odometry_->stamp)) return std::nullopt;
@@ -152,6 +162,7 @@ class HazardsModule final : public Module {
   }
 
   transport::Bus& bus_;
+  collision_avoidance::LocalTime local_time_{{.honest_way = kHonestWay}};
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
   /// What the belief does not tell.

@@ -3,6 +3,7 @@
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 #include "docent/modules/shared/stop_keeper.h"
 #include "docent/planning/navigator/navigator.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -22,8 +23,8 @@ planning::PoseBelief belief_of(const docent_msgs::Belief& message) {
   return belief;
 }
 
-planning::Sweep sweep_of(const sensor_msgs::LaserScan& scan) {
-  return {from_message(scan.header.stamp), scan.angle_min, scan.angle_increment, scan.range_max, scan.ranges};
+planning::Sweep sweep_of(const sensor_msgs::LaserScan& scan, Time taken) {
+  return {taken, scan.angle_min, scan.angle_increment, scan.range_max, scan.ranges};
 }
 
 planning::LivePatch patch_of(const docent_msgs::LiveMapUpdate& update) {
@@ -76,6 +77,7 @@ class PlanModule final : public Module {
  public:
   PlanModule(transport::Bus& bus, const robot::RobotBody& body, Navigator navigator)
       : bus_{bus},
+        pose_{reach_of(body)},
         navigator_{std::move(navigator)},
         target_{bus_.publisher(topics::kTarget)},
         goal_state_{bus_.publisher(topics::kGoalState)},
@@ -86,14 +88,15 @@ class PlanModule final : public Module {
       pose_.on_belief(belief);
       navigator_.believe(belief_of(belief));
     });
-    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry,
-                                       [this](const auto& odometry) { pose_.on_odometry(odometry); });
+    bus_.subscribe<nav_msgs::Odometry>(
+        topics::kOdometry, [this](const auto& odometry) { pose_.on_odometry(odometry, sensor_time_.of(odometry)); });
     subscribe_scanners(bus_, body, [this](std::size_t i, const auto& scan, const auto& place) {
       navigator_.lookout().mount(i, place.base_from_sensor);
-      navigator_.lookout().see(i, sweep_of(scan));
+      navigator_.lookout().see(i, sweep_of(scan, sensor_time_.of(i, scan, place)));
     });
-    bus_.subscribe<sensor_msgs::LaserScan>(
-        topics::kVirtualScan, [this](const auto& scan) { navigator_.lookout().see_hazards(sweep_of(scan)); });
+    bus_.subscribe<sensor_msgs::LaserScan>(topics::kVirtualScan, [this](const auto& scan) {
+      navigator_.lookout().see_hazards(sweep_of(scan, from_message(scan.header.stamp)));
+    });
     bus_.subscribe<nav_msgs::OccupancyGrid>(topics::kLiveMap, [this](const auto& map) {
       navigator_.live_obstacles().take_map(from_message(map.header.stamp), map.data);
     });
@@ -140,6 +143,7 @@ class PlanModule final : public Module {
   }
 
   transport::Bus& bus_;
+  SensorTime sensor_time_{bus_};
   PoseTracker pose_;
   Navigator navigator_;
   transport::Publisher<docent_msgs::Target> target_;

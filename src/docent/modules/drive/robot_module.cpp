@@ -1,6 +1,7 @@
 #include "docent/modules/drive/robot_module.h"
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/drive/tf_odometry.h"
 #include "docent/modules/shared/stop_keeper.h"
 #include "docent/robot/watchdog.h"
 
@@ -32,6 +33,7 @@ class RobotModule final : public Module {
         watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
         velocity_{bus_.publisher(topics::kCommandVelocity)},
         transforms_{bus_.publisher(topics::kTransforms)},
+        odometry_{bus_.publisher(topics::kOdometry)},
         stop_{context, "robot", [this] {
                 if (stop_.holds()) command_base();
               }} {
@@ -42,10 +44,14 @@ class RobotModule final : public Module {
     });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const nav_msgs::Odometry& odometry) {
       odometry_received_ = bus_.now();
+      if (from_tf_.hear(odometry)) return;  // its driver has published the transform
       transforms_.publish(
           {{{odometry.header,
              "base_link",
              {{odometry.pose.pose.position.x, odometry.pose.pose.position.y, 0.0}, odometry.pose.pose.orientation}}}});
+    });
+    bus_.subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [this](const tf2_msgs::TFMessage& transforms) {
+      if (const auto odometry = from_tf_.take(transforms, bus_.now())) odometry_.publish(*odometry);
     });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
@@ -56,7 +62,10 @@ class RobotModule final : public Module {
     if (!odometry_received_) return {"starting", "no odometry yet"};
     if (bus_.now() - *odometry_received_ > seconds(1.0)) return {"degraded", "no fresh odometry from the base"};
     if (battery_ < params_.battery_low) return {"degraded", "the battery is low"};
-    return stop_.health();
+    ModuleHealth health = stop_.health();
+    if (from_tf_.is_needed() && health.reason.empty())
+      health.reason = "the base publishes no odom: its transform odom -> base_link is taken";
+    return health;
   }
 
  private:
@@ -91,6 +100,8 @@ class RobotModule final : public Module {
   robot::CommandWatchdog watchdog_;
   transport::Publisher<geometry_msgs::Twist> velocity_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
+  transport::Publisher<nav_msgs::Odometry> odometry_;
+  TfOdometry from_tf_;
   std::optional<Time> odometry_received_;
   float battery_ = 1.0F;
   StopKeeper stop_;  ///< last: it calls

@@ -162,5 +162,27 @@ TEST_F(RobotModule, SaysWhenTheBaseIsSilentOrItsBatteryLow) {
   }
 }
 
+TEST_F(RobotModule, TakesOdometryFromTheTransformsOfABaseThatPublishesNone) {
+  std::vector<nav_msgs::Odometry> heard;
+  world->subscribe<nav_msgs::Odometry>(topics::kOdometry, [&](const auto& one) { heard.push_back(one); });
+  int transforms_heard = 0;
+  world->subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [&](const auto&) { ++transforms_heard; });
+  const auto transforms = world->publisher(topics::kTransforms);
+  start();
+  double x = 0.0;
+  int told = 0;
+  world->every(seconds(0.05), [&] {
+    x += 0.01;
+    ++told;
+    transforms.publish({{{{to_message(world->now()), "odom"}, "base_link", {{x, 0.0, 0.0}, to_quaternion(Angle{})}}}});
+  });
+  run(5.0);
+  EXPECT_NEAR(static_cast<double>(heard.size()), 60.0, 3.0) << "after a patience of 2 s";
+  EXPECT_NEAR(heard.back().twist.twist.linear.x, 0.2, 1e-6);
+  EXPECT_LE(transforms_heard, told) << "none is published twice";
+  EXPECT_EQ(module->health().state, "ready");
+  EXPECT_NE(module->health().reason.find("transform"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace docent::modules

@@ -30,7 +30,8 @@ class SceneCameraModule final : public Module {
   SceneCameraModule(const ModuleContext& context, const museum::SceneCamera& camera, const SceneCameraParams& params)
       : bus_{context.bus},
         camera_{{camera.position, camera.height}, middle_of(context.museum.area), params},
-        views_{bus_.publisher(topics::kSceneCameraView)} {
+        views_{bus_.publisher(topics::kSceneCameraView)},
+        pose_{reach_of(context.config.body())} {
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) {
       pose_.on_belief(belief);
       deviation_ = belief.hypotheses.empty() ? 0.0 : deviation_of(belief.hypotheses.front());

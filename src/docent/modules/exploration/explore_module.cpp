@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/modules/shared/belief_cells.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
+#include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 #include "docent/modules/shared/stop_keeper.h"
 #include "docent/planning/survey/surveyor.h"
 #include "docent/vocabulary/vocabulary.h"
@@ -75,11 +76,12 @@ class ExploreModule final : public Module {
  public:
   ExploreModule(const ModuleContext& context, const planning::SurveyorParams& params, planning::SurveySite site)
       : bus_{context.bus},
-        surveyor_{params,
-                  std::move(site),
-                  {mounts_of(context.config.body().scanners), context.config.body().radius},
-                  planning::SurveyStore{context.state},
-                  bus_.now()},
+        surveyor_{
+            params,
+            std::move(site),
+            {mounts_of(context.config.body().scanners), context.config.body().radius, reach_of(context.config.body())},
+            planning::SurveyStore{context.state},
+            bus_.now()},
         belief_{bus_.publisher(topics::kBelief)},
         target_{bus_.publisher(topics::kTarget)},
         static_map_{bus_.publisher(topics::kStaticMap)},
@@ -90,7 +92,7 @@ class ExploreModule final : public Module {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { move(odometry); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
       surveyor_.mount(i, place.base_from_sensor);
-      see(i, scan);
+      see(i, scan, place);
     });
     bus_.subscribe<docent_msgs::Stop>(
         topics::kStop, [this, view = StopView{}](const auto& stop) mutable { surveyor_.note_stop(view.see(stop)); });
@@ -122,17 +124,13 @@ class ExploreModule final : public Module {
     surveyor_.note_people(tracked);
   }
 
-  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
-    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
-  }
-
   void move(const nav_msgs::Odometry& odometry) {
-    surveyor_.move(in_local_time("odometry", odometry.header),
+    surveyor_.move(sensor_time_.of(odometry),
                    {from_message(odometry.pose.pose), {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
   }
 
-  void see(std::size_t laser, const sensor_msgs::LaserScan& scan) {
-    surveyor_.keep(laser, in_local_time("laser " + std::to_string(laser), scan.header),
+  void see(std::size_t laser, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
+    surveyor_.keep(laser, sensor_time_.of(laser, scan, place),
                    {scan.ranges, Angle::radians(scan.angle_min), scan.angle_increment, scan.range_min, scan.range_max});
     if (laser != 0) return;
     if (const auto sight = surveyor_.sight()) person_beams_.publish(sight_message(*sight));
@@ -209,7 +207,7 @@ class ExploreModule final : public Module {
   void publish_state() { exploration_.publish(report_message(surveyor_.report(), bus_.now())); }
 
   transport::Bus& bus_;
-  collision_avoidance::LocalTime local_time_;
+  SensorTime sensor_time_{bus_};
   planning::Surveyor surveyor_;
   transport::Publisher<docent_msgs::Belief> belief_;
   transport::Publisher<docent_msgs::Target> target_;

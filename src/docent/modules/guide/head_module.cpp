@@ -47,6 +47,7 @@ class HeadModule final : public Module {
         head_{{params.mood, params.gaze, params.neck}, Rng{context.seed}.stream("mood")},
         expression_{bus_.publisher(topics::kExpression)},
         joints_{bus_.publisher(topics::kJointStates)},
+        pose_{reach_of(context.config.body())},
         around_{bus_} {
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) { head_.task(to_task(task, museum_)); });
     bus_.subscribe<docent_msgs::TaskState>(topics::kTaskState, [this](const auto& state) {

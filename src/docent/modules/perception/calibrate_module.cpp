@@ -8,6 +8,7 @@
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 
 namespace docent::modules {
 namespace {
@@ -34,11 +35,11 @@ class CalibrateModule final : public Module {
         calibrator_.remember(i, (*before)[i].estimate, (*before)[i].pairs);
     publish();
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
-      calibrator_.move(from_message(odometry.header.stamp), from_message(odometry.pose.pose));
+      calibrator_.move(sensor_time_.of(odometry), from_message(odometry.pose.pose));
     });
     subscribe_stamped_scanners(bus_, context.config.body(), [this](std::size_t i, const sensor_msgs::LaserScan& scan) {
       calibrator_.see(
-          i, from_message(scan.header.stamp),
+          i, sensor_time_.of(i, scan),
           {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
            static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)});
     });
@@ -84,6 +85,7 @@ class CalibrateModule final : public Module {
   }
 
   transport::Bus& bus_;
+  SensorTime sensor_time_{bus_};
   mapping::MountCalibratorParams params_;
   mapping::MountCalibrator calibrator_;
   mapping::CalibrationStore store_;

@@ -7,6 +7,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/modules/shared/module_bench.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 
 namespace docent::modules::calibrate_module_test {
 namespace {
@@ -85,11 +86,12 @@ TEST_F(CalibrateModule, IsSlowAtFirstThenNamesWhatIsWrongAndRemembersIt) {
 TEST_F(CalibrateModule, OthersTakeWhatItFound) {
   std::vector<ScannerPlace> places;
   std::vector<Time> stamps;
+  SensorTime times{*world};
   subscribe_scanners(*world, config.body(),
                      [&](std::size_t i, const sensor_msgs::LaserScan& scan, const ScannerPlace& at) {
                        if (i != 0) return;
                        places.push_back(at);
-                       stamps.push_back(from_message(scan.header.stamp));
+                       stamps.push_back(times.of(i, scan, at));
                      });
   docent_msgs::Calibration said;
   said.mounts.push_back({"front", 0.2, 0.1, 0.5, 0.05, 0.0, 0.0, true});

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/localization/judgement/hindrance.h"
 #include "docent/localization/markov/markov_localizer.h"
@@ -19,7 +18,9 @@
 #include "docent/modules/perception/sonar_localize.h"
 #include "docent/modules/shared/initial_pose.h"
 #include "docent/modules/shared/person_beams.h"
+#include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 
 namespace docent::modules {
 namespace {
@@ -102,8 +103,6 @@ std::vector<std::string> names_of_scans(const robot::RobotBody& body) {
   return names;
 }
 
-motion_models::BaseReach reach_of(const robot::RobotBody& body) { return {body.max_speed, body.max_turn_rate}; }
-
 class LocalizeModule final : public Module {
  public:
   LocalizeModule(const ModuleContext& context, const LocalizeParams& params)
@@ -146,12 +145,12 @@ class LocalizeModule final : public Module {
     publish_belief(watch_.start(bus_.now()));
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
       odometry_silence_.hear(0, bus_.now());
-      watch_.move(in_local_time("odometry", odometry.header.stamp), from_message(odometry.pose.pose));
+      watch_.move(sensor_time_.of(odometry), from_message(odometry.pose.pose));
       look_if_due();
     });
     scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) {
       watch_.mount(i, place.base_from_sensor);
-      on_scan(i, scan);
+      on_scan(i, scan, place);
     });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
@@ -172,15 +171,10 @@ class LocalizeModule final : public Module {
     return {};
   }
 
-  /// Clocks of other computers are apart, drift, and are set.
-  [[nodiscard]] Time in_local_time(const std::string& source, const builtin_interfaces::Time& stamp) {
-    return local_time_.receive(source, bus_.now(), from_message(stamp));
-  }
-
-  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
     scan_silence_.hear(laser, bus_.now());
     watch_.see(
-        laser, in_local_time("laser " + std::to_string(laser), scan.header.stamp),
+        laser, sensor_time_.of(laser, scan, place),
         {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
          static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)},
         bus_.now());
@@ -199,7 +193,7 @@ class LocalizeModule final : public Module {
     const auto index = body_.sonar_of(range.header.frame_id);
     if (!index) return;
     sonar_silence_.hear(0, bus_.now());
-    const Time stamp = in_local_time("sonars", range.header.stamp);
+    const Time stamp = sensor_time_.of("sonars", range.header);
     const auto odom_from_base = watch_.odom_from_base_at(stamp);
     if (!odom_from_base) return;
     sonars_->hear({stamp, *index, body_.base_from_sonar(*index), *odom_from_base, static_cast<double>(range.range),
@@ -251,7 +245,7 @@ class LocalizeModule final : public Module {
   localization::PoseWatch watch_;
   std::shared_ptr<localization::SonarEvidence> sonars_;  ///< beside the lasers; null: they take no part
   std::shared_ptr<const ScannerReaders> scanners_;
-  collision_avoidance::LocalTime local_time_;
+  SensorTime sensor_time_{bus_};
   localization::SensorSilence odometry_silence_;
   localization::SensorSilence scan_silence_;
   localization::SensorSilence sonar_silence_;

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "docent/collision_avoidance/body/outline_distance.h"
-#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/modules/shared/sensor_time.h"
 
 namespace docent::modules {
 namespace {
@@ -28,7 +28,8 @@ class MapModule final : public Module {
         base_from_laser_{mounts_of(body_.scanners)},
         sights_(base_from_laser_.size()),
         live_map_{bus_.publisher(topics::kLiveMap)},
-        updates_{bus_.publisher(topics::kLiveMapUpdate)} {
+        updates_{bus_.publisher(topics::kLiveMapUpdate)},
+        pose_{reach_of(body_)} {
     nav_msgs::OccupancyGrid map;
     map.header = {to_message(bus_.now()), "map"};
     map.info = info_of(context.museum.map.frame, bus_.now());
@@ -37,12 +38,11 @@ class MapModule final : public Module {
     publish_full();
 
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { pose_.on_belief(belief); });
-    bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) {
-      pose_.on_odometry(odometry, in_local_time("odometry", odometry.header));
-    });
+    bus_.subscribe<nav_msgs::Odometry>(
+        topics::kOdometry, [this](const auto& odometry) { pose_.on_odometry(odometry, sensor_time_.of(odometry)); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
       base_from_laser_[i] = place.base_from_sensor;
-      take(i, scan);
+      take(i, scan, place);
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
@@ -77,14 +77,10 @@ class MapModule final : public Module {
     bool is_placed = false;         ///< the two above are of this scan
   };
 
-  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
-    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
-  }
-
-  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+  void take(std::size_t laser, const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
     sights_[laser].scan = scan;
     sights_[laser].received = bus_.now();
-    sights_[laser].stamp = in_local_time("laser " + std::to_string(laser), scan.header);
+    sights_[laser].stamp = sensor_time_.of(laser, scan, place);
     sights_[laser].is_placed = false;
   }
 
@@ -133,13 +129,13 @@ class MapModule final : public Module {
   template <class Add>
   void take(const sensor_msgs::Range& range, const Pose2& base_from_sensor, const Add& add) {
     const std::string ring = range.radiation_type == 0 ? "sonars" : "infrared";
-    const auto map_from_base = pose_.map_from_base_at(in_local_time(ring, range.header));
+    const auto map_from_base = pose_.map_from_base_at(sensor_time_.of(ring, range.header));
     if (!pose_.localized() || !map_from_base) return;
     add(mapping::ConeReading{*map_from_base * base_from_sensor, range.field_of_view, range.max_range, range.range});
   }
 
   void feel(const docent_msgs::Tactile& tactile) {
-    const auto map_from_base = pose_.map_from_base_at(in_local_time("tactile", tactile.header));
+    const auto map_from_base = pose_.map_from_base_at(sensor_time_.of("tactile", tactile.header));
     if (!pose_.localized() || !map_from_base || tactile.segments.empty()) return;
     const double step = 2.0 * std::numbers::pi / static_cast<double>(tactile.segments.size());
     for (std::size_t i = 0; i < tactile.segments.size(); ++i) {
@@ -193,7 +189,7 @@ class MapModule final : public Module {
   std::vector<Sight> sights_;           ///< [scanners] newest sweeps
   transport::Publisher<nav_msgs::OccupancyGrid> live_map_;
   transport::Publisher<docent_msgs::LiveMapUpdate> updates_;
-  collision_avoidance::LocalTime local_time_;
+  SensorTime sensor_time_{bus_};
   PoseTracker pose_;
   std::vector<mapping::LaserLook> looks_;
   Time full_stamp_{};

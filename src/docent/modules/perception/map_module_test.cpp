@@ -47,6 +47,7 @@ class LiveMapOfARoom : public ::testing::Test {
 
   void tick() {
     const Time now = world->now();
+    if (now < time_from_seconds(0.2)) return;  // a stamp of zero is none
     nav_msgs::Odometry odometry;
     odometry.header = {to_message(now), "odom"};
     odometry.pose.pose = to_message(pose_at(now));

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/localization/belief/checkpoint.h"
 #include "docent/localization/pose_watch/odometry_trail.h"
 #include "docent/localization/sonar/tracker/gaussian_belief.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/perception/belief_messages.h"
 #include "docent/modules/shared/initial_pose.h"
+#include "docent/modules/shared/sensor_time.h"
 
 namespace docent::modules {
 namespace {
@@ -61,7 +61,7 @@ class SonarLocalizeModule final : public Module {
 
   void on_odometry(const nav_msgs::Odometry& odometry) {
     received_.odometry = bus_.now();
-    const Time stamp = local_time_.receive("odometry", bus_.now(), from_message(odometry.header.stamp));
+    const Time stamp = sensor_time_.of(odometry);
     odometry_.add(stamp, from_message(odometry.pose.pose));
     const Pose2 odom_from_robot = odometry_.latest();
     if (restored_) {
@@ -77,8 +77,7 @@ class SonarLocalizeModule final : public Module {
     const auto index = body_.sonar_of(range.header.frame_id);
     if (!index) return;
     received_.sonar = bus_.now();
-    const auto odom_from_robot =
-        odometry_.at(local_time_.receive("sonars", bus_.now(), from_message(range.header.stamp)));
+    const auto odom_from_robot = odometry_.at(sensor_time_.of("sonars", range.header));
     if (!odom_from_robot) return;
     tracker_.hear(
         {*index, body_.base_from_sonar(*index), static_cast<double>(range.range), static_cast<double>(range.max_range)},
@@ -169,7 +168,7 @@ class SonarLocalizeModule final : public Module {
   transport::Publisher<geometry_msgs::PoseWithCovarianceStamped> pose_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
   transport::Publisher<docent_msgs::PersonBeams> person_beams_;
-  collision_avoidance::LocalTime local_time_;
+  SensorTime sensor_time_{bus_};
   localization::OdometryTrail odometry_;
   std::optional<Pose2> restored_;  ///< odometry of the checkpoint, until odometry speaks
   struct Received {

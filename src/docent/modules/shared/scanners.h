@@ -48,7 +48,7 @@ std::shared_ptr<const ScannerReaders> subscribe_stamped_scanners(transport::Bus&
 /// Where a scanner is mounted and how late its stamps are, as far as is known now.
 struct ScannerPlace {
   Pose2 base_from_sensor;
-  double delay = 0.0;  ///< [s] that was taken from the stamp of the scan
+  double delay = 0.0;  ///< [s] by which the stamps are later than the sweeps, in local time
 };
 
 /// [scanners] where they are mounted, as robot.yaml says.
@@ -59,7 +59,7 @@ struct ScannerPlace {
                                                                                   const robot::RobotBody& body);
 
 /// Calls `on_scan(index, scan, place)`, or `on_scan(index, scan)`, for every sweep of every laser scanner that the body
-/// has, as ScannerReaders::read gives it; with the stamp of the moment that it is of, as far as that is known.
+/// has, as ScannerReaders::read gives it. SensorTime tells of which moment it is.
 /// @returns who reads them
 template <class F>
 std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, const robot::RobotBody& body, F on_scan) {
@@ -71,11 +71,7 @@ std::shared_ptr<const ScannerReaders> subscribe_scanners(transport::Bus& bus, co
   };
   return subscribe_stamped_scanners(
       bus, body, [tell, places = follow_calibration(bus, body)](std::size_t i, const sensor_msgs::LaserScan& scan) {
-        const ScannerPlace& place = (*places)[i];
-        if (place.delay == 0.0) return tell(i, scan, place);
-        sensor_msgs::LaserScan earlier = scan;
-        earlier.header.stamp = to_message(from_message(scan.header.stamp) - seconds(place.delay));
-        tell(i, earlier, place);
+        tell(i, scan, (*places)[i]);
       });
 }
 

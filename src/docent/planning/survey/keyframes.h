@@ -16,11 +16,11 @@ namespace docent::planning {
 
 /// Part `keyframes` of section `explore`: what the map is made of.
 struct KeyframeParams {
-  double way = 0.2;        ///< [m], > 0: scans are taken for the map after this way,
-  double turn = 10.0;      ///< [deg], > 0: this turn,
-  double pause = 5.0;      ///< [s], > 0: or this time, for what stands in the way now may be gone
-  double together = 0.15;  ///< [s], > 0: sweeps of two lasers no farther apart are of one moment
-  double person = 0.5;     ///< [m], >= 0: what is seen so near to the place of a tracked person is of them
+  double way = 0.2;       ///< [m], > 0: scans are taken for the map after this way,
+  double turn = 10.0;     ///< [deg], > 0: this turn,
+  double pause = 5.0;     ///< [s], > 0: or this time, for what stands in the way now may be gone
+  double together = 0.4;  ///< [s], > 0: sweeps of two lasers no farther apart are of one moment: one may be late
+  double person = 0.5;    ///< [m], >= 0: what is seen so near to the place of a tracked person is of them
   template <class V>
   void visit(V& v) {
     v("way", way);

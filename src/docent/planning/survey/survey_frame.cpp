@@ -4,12 +4,22 @@
 
 namespace docent::planning {
 
-SurveyFrame::SurveyFrame(const Pose2& home, std::optional<localization::LocalizerCheckpoint> before)
-    : home_{home}, before_{std::move(before)} {}
+SurveyFrame::SurveyFrame(const Pose2& home, std::optional<localization::LocalizerCheckpoint> before,
+                         const motion_models::BaseReach& base)
+    : home_{home}, before_{std::move(before)}, unbroken_{base} {}
 
 void SurveyFrame::move(Time stamp, const collision_avoidance::BaseState& state) {
-  odometry_.add(stamp, state);
-  odom_from_base_ = odometry_.newest().odom_from_base;  // that one may have been overtaken
+  const auto reading = unbroken_.add(stamp, state.odom_from_base);
+  if (reading.is_late && !odometry_.empty()) return;
+  if (reading.is_set_back) odometry_.forget();
+  // A base that derives its velocity from its pose says nonsense in a jump.
+  const bool keeps = reading.jumped && !odometry_.empty();
+  odometry_.add(stamp, {reading.odom_from_base, keeps ? odometry_.newest().velocity : state.velocity});
+  odom_from_base_ = odometry_.newest().odom_from_base;
+}
+
+Pose2 SurveyFrame::raw_from_odom() const {
+  return odometry_.empty() ? Pose2{} : raw_from_odom(odometry_.newest_stamp());
 }
 
 Pose2 SurveyFrame::start_of(const Pose2& odom_from_base) const {

@@ -25,7 +25,7 @@ TEST(SurveyFrame, ItBeginsAtHomeWhateverOdometrySays) {
   EXPECT_FALSE(frame.map_from_base()) << "nothing was seen yet";
   expect_near(frame.begin_moment({3.0, 4.0, {}}), kHome);
   frame.end_moment(kHome);
-  frame.move(time_from_seconds(1.0), {{5.0, 4.0, {}}, {}});
+  frame.move(time_from_seconds(3.0), {{5.0, 4.0, {}}, {}});
   expect_near(frame.map_from_base().value(), {10.0, 7.0, Angle::degrees(90.0)});
 }
 
@@ -55,7 +55,7 @@ TEST(SurveyFrame, LiesElsewhereAndBeginsAnew) {
   SurveyFrame frame{{1.0, 0.0, {}}};
   frame.move(time_from_seconds(1.0), {{}, {}});
   frame.end_moment(frame.begin_moment({}));
-  frame.move(time_from_seconds(2.0), {{2.0, 0.0, {}}, {}});
+  frame.move(time_from_seconds(4.0), {{2.0, 0.0, {}}, {}});
   frame.end_moment(frame.begin_moment({2.0, 0.0, {}}));
   EXPECT_NEAR(frame.map_from_base()->x, 3.0, 1e-12);
   const Pose2 site_from_survey{0.5, 0.25, {}};
@@ -64,6 +64,19 @@ TEST(SurveyFrame, LiesElsewhereAndBeginsAnew) {
   EXPECT_NEAR(frame.map_from_base()->y, 0.25, 1e-12);
   frame.begin_anew(site_from_survey);
   EXPECT_NEAR(frame.map_from_base()->x, 3.5, 1e-12) << "from where odometry has it";
+}
+
+TEST(SurveyFrame, AJumpOfTheOdometryIsNoWay) {
+  SurveyFrame frame{kHome};
+  const Pose2 before{3.0, 4.0, {}};
+  for (int i = 0; i < 20; ++i) frame.move(time_from_seconds(0.05 * i), {before, {}});
+  frame.end_moment(frame.begin_moment(*frame.odom_from_base()));
+  const Pose2 anew{};  // the base began anew
+  for (int i = 0; i < 20; ++i) frame.move(time_from_seconds(6.0 + 0.05 * i), {anew, {}});
+  expect_near(frame.map_from_base().value(), kHome);
+  expect_near(frame.raw_from_odom() * *frame.odom_from_base(), anew);
+  expect_near(frame.raw_from_odom(time_from_seconds(0.5)) * *frame.odom_from_base(), before);
+  expect_near(frame.odometry().pose_at(time_from_seconds(0.5)), before);
 }
 
 }  // namespace

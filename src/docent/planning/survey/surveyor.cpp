@@ -14,7 +14,7 @@ Surveyor::Surveyor(const SurveyorParams& params, SurveySite site, const SurveyBo
     : params_{params},
       body_radius_{body.radius},
       store_{std::move(store)},
-      frame_{site.home, store_.restored(now)},
+      frame_{site.home, store_.restored(now), body.reach},
       keyframes_{params.keyframes, params.mapping.points, body.base_from_laser},
       map_{params.mapping, params.map, body.radius},
       alignment_{params.alignment, site.area, site.home},
@@ -35,6 +35,13 @@ void Surveyor::mount(std::size_t laser, const Pose2& base_from_laser) {
   aligned_moments_ = 0;
 }
 
+void Surveyor::note_people(std::span<const TrackedPerson> people) {
+  std::vector<TrackedPerson> placed{people.begin(), people.end()};
+  const Pose2 odom_from_raw = inverse(frame_.raw_from_odom());
+  for (TrackedPerson& person : placed) person.place = odom_from_raw * person.place;
+  walkers_.note(placed);
+}
+
 bool Surveyor::obey(ExplorationOrder order) {
   if (is_done_) return false;
   order_ = order;
@@ -49,6 +56,7 @@ std::optional<Surveyor::Sight> Surveyor::sight() const {
   if (!look) return std::nullopt;
   const Pose2 map_from_base = *map_from_odom * look->odom_from_base;
   auto origins = beam_origins(map_.seen(), look->sweep, map_from_base);
+  look->odom_from_base = frame_.raw_from_odom(look->stamp) * look->odom_from_base;
   return Sight{std::move(*look), map_from_base, std::move(origins)};
 }
 
@@ -172,7 +180,8 @@ std::optional<OccupancyGrid> Surveyor::finish(Time now) {
 void Surveyor::keep_place(Time now) const {
   const auto here = frame_.map_from_base();
   if (!here) return;
-  store_.keep_place(mode_of({*here, params_.most_sigma, params_.sigma_heading}), *frame_.odom_from_base(), now);
+  store_.keep_place(mode_of({*here, params_.most_sigma, params_.sigma_heading}),
+                    frame_.raw_from_odom() * *frame_.odom_from_base(), now);
 }
 
 std::optional<Surveyor::Place> Surveyor::place() const {
@@ -180,15 +189,15 @@ std::optional<Surveyor::Place> Surveyor::place() const {
   if (!here) return std::nullopt;
   const double spread = map_.poses().spread().position;  // no number where no poses fit together
   const double sigma = spread <= params_.most_sigma ? std::max(spread, params_.least_sigma) : params_.most_sigma;
-  return Place{{*here, sigma, params_.sigma_heading}, *frame_.odom_from_base()};
+  return Place{{*here, sigma, params_.sigma_heading}, frame_.raw_from_odom() * *frame_.odom_from_base()};
 }
 
 ExplorationDrive::Ahead Surveyor::ahead() const {
   const auto here = frame_.map_from_base();
   if (!here || is_done_ || order_ != ExplorationOrder::by_itself) return {};
   ExplorationDrive::Ahead ahead = drive_.ahead(here->position());
-  const Pose2 odom_from_map = inverse(*frame_.map_from_odom());
-  for (Point2& via : ahead.via) via = odom_from_map * via;
+  const Pose2 raw_from_map = frame_.raw_from_odom() * inverse(*frame_.map_from_odom());
+  for (Point2& via : ahead.via) via = raw_from_map * via;
   return ahead;
 }
 

@@ -39,6 +39,7 @@ struct SurveySite {
 struct SurveyBody {
   std::vector<Pose2> base_from_laser;  ///< [lasers], at least one
   double radius = 0.265;               ///< [m], > 0
+  motion_models::BaseReach reach{};    ///< more than that is a jump of its odometry
 };
 
 /// Maps a building: drives about in it by itself, or lets itself be driven, and makes the map when it has seen all or
@@ -50,7 +51,7 @@ class Surveyor {
 
   // What the robot senses and is told.
   void move(Time stamp, const collision_avoidance::BaseState& state) { frame_.move(stamp, state); }
-  void note_people(std::span<const TrackedPerson> people) { walkers_.note(people); }
+  void note_people(std::span<const TrackedPerson> people);                                ///< in odometry's own frame
   void note_hindrance(ExplorationDrive::Hindrance hindrance) { hindrance_ = hindrance; }  ///< what avoidance says
   void note_stop(bool is_stopped) { is_stopped_ = is_stopped; }  ///< somebody has pressed the stop button
   void note_steering(Time now) { steered_ = now; }               ///< somebody steers by hand
@@ -65,7 +66,7 @@ class Surveyor {
   // What it does, in the order of a sweep, of a second, of the end.
   /// The newest sweeps of all lasers, and which beams ended on people; none: nothing to compare them with.
   struct Sight {
-    Keyframes::Look look;
+    Keyframes::Look look;  ///< in odometry's own frame
     Pose2 map_from_base;
     std::vector<sensor_models::BeamOrigin> origins;  ///< [beams of the look]
   };
@@ -89,7 +90,7 @@ class Surveyor {
   /// Where it is, and where odometry has it then; none before the first moment.
   struct Place {
     NormalPose pose;
-    Pose2 odom_from_base;
+    Pose2 odom_from_base;  ///< in odometry's own frame, as are the two below
   };
   [[nodiscard]] std::optional<Place> place() const;
   /// The way ahead [m], odom; empty: stand.

@@ -26,7 +26,8 @@ class Surveyor : public ::testing::Test {
   ~Surveyor() override { std::filesystem::remove_all(state); }
 
   void begin() {
-    surveyor = std::make_unique<planning::Surveyor>(params, site, SurveyBody{testing::two_lasers(), 0.265},
+    constexpr motion_models::BaseReach kAnywhere{100.0, 100.0};
+    surveyor = std::make_unique<planning::Surveyor>(params, site, SurveyBody{testing::two_lasers(), 0.265, kAnywhere},
                                                     SurveyStore{state}, now);
   }
   /// A tenth of a second at `pose` in the room. @returns whether the moment went into the map
@@ -98,7 +99,7 @@ TEST_F(Surveyor, WhenNothingIsLeftItGoesHomeAndMakesTheMap) {
   ASSERT_FALSE(ahead.via.empty());
   EXPECT_NEAR(ahead.via.back().x, 0.0, 0.2) << "home, as odometry has it";
   EXPECT_NEAR(surveyor->way().back().x, 1.5, 0.2) << "as the map has it";
-  stand(home, 5);
+  stand(home * Pose2{0.001, 0.0, {}}, 5);  // odometry of exactly zero would be one that began anew
   EXPECT_TRUE(surveyor->is_done());
   EXPECT_EQ(phase(), SurveyPhase::mapping);
   EXPECT_TRUE(surveyor->ahead().via.empty()) << "it stands";

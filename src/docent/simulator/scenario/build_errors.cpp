@@ -63,8 +63,10 @@ BuildErrors read_build_errors(const YamlFile& file, const YAML::Node& node) {
           errors.way = number(file, scale.second, 0.5, 2.0);
         else if (scale.first.Scalar() == "turn")
           errors.turn = number(file, scale.second, 0.5, 2.0);
+        else if (scale.first.Scalar() == "rate")
+          errors.rate = number(file, scale.second, 1.0, 100.0);
         else
-          refuse(file, scale.first, "way, turn");
+          refuse(file, scale.first, "way, turn, rate");
       }
     } else if (key == "start") {
       errors.start = pose(file, entry.second);

@@ -17,11 +17,12 @@ constexpr double kSecond[] = {0.0, 0.05};     // [s] its double comes later
 
 Result<void> WireParams::validate() const {
   const auto is_share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  if (!(delay >= 0.0 && delay <= 2.0)) return fail("delay must be 0..2");
   if (!(jitter >= 0.0 && jitter <= 1.0)) return fail("jitter must be 0..1");
   if (!(hiccups >= 0.0 && hiccups <= 600.0)) return fail("hiccups must be 0..600");
   if (!(hold >= 0.001 && hold <= 10.0)) return fail("hold must be 0.001..10");
-  if (stamps != "sending" && stamps != "receipt")
-    return fail("stamps must be sending or receipt, not '" + stamps + "'");
+  if (stamps != "sending" && stamps != "receipt" && stamps != "moving" && stamps != "zero")
+    return fail("stamps must be sending, receipt, moving or zero, not '" + stamps + "'");
   for (const auto& [name, value] : {std::pair{"reorder", reorder}, std::pair{"twice", twice}, std::pair{"drop", drop}})
     if (!is_share(value)) return fail(std::string{name} + " must be 0..1");
   if (!(std::abs(clock) <= 1e6)) return fail("clock must be -1e6..1e6");
@@ -37,7 +38,8 @@ Wire::Wire(const WireParams& params, const Rng& rng, Time begins)
       begins_{begins},
       last_{begins - Duration{1}},
       next_hiccup_{begins},
-      held_until_{begins} {
+      held_until_{begins},
+      news_{begins} {
   if (params_.hiccups > 0.0) next_hiccup_ = begins + seconds(rng_.exponential(kMinute / params_.hiccups));
 }
 
@@ -51,12 +53,19 @@ Time Wire::free_at(Time now) {
     held_until_ = std::max(held_until_, next_hiccup_ + seconds(params_.hold * rng_.uniform(kShortestHold, 1.0)));
     next_hiccup_ = next_hiccup_ + seconds(rng_.exponential(kMinute / params_.hiccups));
   }
-  Time free = std::max(now, held_until_);
-  if (params_.jitter > 0.0) free = std::max(free, now + seconds(rng_.uniform(0.0, params_.jitter)));
+  Time free = std::max(now + seconds(params_.delay), held_until_);
+  if (params_.jitter > 0.0) free = std::max(free, now + seconds(params_.delay + rng_.uniform(0.0, params_.jitter)));
   return free > last_ ? free : last_ + seconds(rng_.uniform(kInBurst[0], kInBurst[1]));
 }
 
-std::vector<Wire::Delivery> Wire::carry(Time now) {
+Time Wire::stamp(Time now, Time comes, bool is_news) {
+  if (params_.stamps == "zero") return {};
+  if (params_.stamps == "receipt") return by_clock(comes);
+  if (params_.stamps == "moving" && !is_news) return news_;
+  return news_ = by_clock(now);
+}
+
+std::vector<Wire::Delivery> Wire::carry(Time now, bool is_news) {
   Time comes = free_at(now);
   if (rng_.chance(params_.drop)) return {};
   if (rng_.chance(params_.reorder)) {
@@ -64,10 +73,10 @@ std::vector<Wire::Delivery> Wire::carry(Time now) {
   } else {
     last_ = comes;
   }
-  const Time stamp = by_clock(params_.stamps == "receipt" ? comes : now);
-  std::vector<Delivery> deliveries{{comes - now, stamp}};
+  const Time stamped = stamp(now, comes, is_news);
+  std::vector<Delivery> deliveries{{comes - now, stamped}};
   if (rng_.chance(params_.twice))
-    deliveries.push_back({comes - now + seconds(rng_.uniform(kSecond[0], kSecond[1])), stamp});
+    deliveries.push_back({comes - now + seconds(rng_.uniform(kSecond[0], kSecond[1])), stamped});
   return deliveries;
 }
 

@@ -50,6 +50,23 @@ TEST(Wire, CarriesEveryMessageAtOnce) {
   }
 }
 
+TEST(Wire, ADelayIsTheSameForAll) {
+  for (const Message& message : carry({.delay = 0.15})) {
+    EXPECT_EQ(message.came - message.sent, seconds(0.15));
+    EXPECT_EQ(message.stamp, message.sent);
+  }
+  for (const Message& message : carry({.delay = 0.15, .stamps = "receipt"})) EXPECT_EQ(message.stamp, message.came);
+  EXPECT_GT(share_late(carry({.delay = 0.1, .jitter = 0.1}), 0.15), 0.4);
+}
+
+TEST(Wire, StampsAreThoseOfDriversThatAreUnlikeOurs) {
+  for (const Message& message : carry({.stamps = "zero"})) EXPECT_EQ(message.stamp, Time{});
+  Wire wire{{.stamps = "moving", .clock = 2.0}, Rng{1}, at(0.0)};
+  EXPECT_EQ(wire.carry(at(1.0), true).front().stamp, at(3.0));
+  EXPECT_EQ(wire.carry(at(1.1), false).front().stamp, at(3.0)) << "it repeats itself";
+  EXPECT_EQ(wire.carry(at(1.2), true).front().stamp, at(3.2));
+}
+
 TEST(Wire, JitterIsEvenAndOvertakesNothing) {
   const auto messages = carry({.jitter = 0.08});
   EXPECT_EQ(share_late(messages, 0.082), 0.0);
