@@ -19,8 +19,30 @@ constexpr double kSamePart = 0.08;          // [m] from a part of the body: the 
 constexpr double kApart = 0.02;             // [m] nearer parts are one
 constexpr double kMostShare = 0.25;         // of the beams
 constexpr std::size_t kForgotten = 100;     // sweeps on end that do not meet a part
+constexpr double kRimDegrees = 1.0;         // [deg] beside a part, and at least a beam: a beam there grazes it
+constexpr double kAlone = 0.1;              // [m], and
+constexpr double kAloneShare = 0.05;        // of the range: nearer than what is seen beside
 
 }  // namespace
+
+void take_out_grazing(std::span<float> ranges, const std::vector<bool>& grazes) {
+  const std::size_t beams = ranges.size();
+  // The first clear reading from a beam on, to one side; infinity: there is none.
+  const auto beside = [&](std::size_t beam, std::size_t step) {
+    for (std::size_t k = 1; k < beams; ++k) {
+      const std::size_t at = (beam + k * step) % beams;
+      if (!grazes[at] && ranges[at] > 0.0F) return ranges[at];
+    }
+    return std::numeric_limits<float>::infinity();
+  };
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    if (!grazes[beam] || std::isnan(ranges[beam])) continue;
+    const float nearest = std::min(beside(beam, 1), beside(beam, beams - 1));
+    const auto range = static_cast<double>(ranges[beam]);
+    if (range < static_cast<double>(nearest) - kAlone - kAloneShare * range)
+      ranges[beam] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
 
 bool OwnBody::is_inside(double range, Angle bearing, double more) const {
   const Point2 in_base = base_from_sensor_ * (range * unit(bearing));
@@ -32,6 +54,7 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
   if (sweeps_ < kSweepsLearned) return learn(ranges, first_bearing, bearing_step, min_range);
   if (parts_.empty()) return;
   for (Part& part : parts_) ++part.missed;
+  bool has_met = false;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double range = static_cast<double>(ranges[i]);
     const Angle bearing = Angle::radians(first_bearing + static_cast<double>(i) * bearing_step);
@@ -40,10 +63,32 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
     for (Part& part : parts_) {
       if (distance(part.in_sensor, end) > kSamePart) continue;
       part.missed = 0;
+      has_met = true;
       ranges[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }
+  if (has_met) take_out_rims(ranges, first_bearing, bearing_step);
   std::erase_if(parts_, [](const Part& part) { return part.missed > kForgotten; });
+}
+
+void OwnBody::take_out_rims(std::span<float> ranges, double first_bearing, double bearing_step) const {
+  constexpr double kTurn = 6.283185307179586;
+  const double rim = std::max(Angle::degrees(kRimDegrees).radians(), 1.5 * bearing_step);
+  const auto beams = static_cast<double>(ranges.size());
+  std::vector<bool> grazes(ranges.size());
+  for (const Part& part : parts_) {
+    const double bearing = direction({}, part.in_sensor).radians();
+    const double range = norm(part.in_sensor);
+    for (const double turn : {-kTurn, 0.0, kTurn}) {
+      const double from = std::ceil(std::max(0.0, (bearing + turn - rim - first_bearing) / bearing_step));
+      const double to = std::min(beams - 1.0, (bearing + turn + rim - first_bearing) / bearing_step);
+      for (double i = from; i <= to; i += 1.0) {
+        const auto beam = static_cast<std::size_t>(i);
+        grazes[beam] = grazes[beam] || static_cast<double>(ranges[beam]) > range;
+      }
+    }
+  }
+  take_out_grazing(ranges, grazes);
 }
 
 void OwnBody::learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range) {
