@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
+
+#include "docent/localization/beam_choice/person_shapes.h"
 
 namespace docent::localization {
 namespace {
@@ -38,10 +42,14 @@ std::array<double, kBearingsLooked> looked_through(const sensor_models::RangeSwe
   return far;
 }
 
+/// What of `now` stands where `before` has looked through, and is shaped like a person: doors, errors of odometry and
+/// walls that are seen askew are not.
 MovedThings come_since(const std::array<double, kBearingsLooked>& before, const sensor_models::RangeSweep& now,
                        const Pose2& before_from_now) {
   MovedThings result;
-  for (const sensor_models::SweepBeam& beam : now.beams) {
+  const std::vector<std::uint8_t> is_person = on_person_shapes(now);
+  for (std::size_t i = 0; i < now.beams.size(); ++i) {
+    const sensor_models::SweepBeam& beam = now.beams[i];
     if (beam.no_return || beam.range < kNearestMoved || beam.range > kFarthestMoved) continue;
     const Point2 end = before_from_now * sensor_models::endpoint(beam);
     const double at = (std::atan2(end.y, end.x) / (2.0 * std::numbers::pi) + 1.0) * kBearingsLooked;
@@ -51,7 +59,7 @@ MovedThings come_since(const std::array<double, kBearingsLooked>& before, const 
       least = std::min({least, before[(middle + off) % kBearingsLooked], before[(middle - off) % kBearingsLooked]});
     if (least <= 0.0) continue;
     ++result.readings;
-    result.moved += least > norm(end) + kLookedThrough ? 1 : 0;
+    result.moved += is_person[i] != 0 && least > norm(end) + kLookedThrough ? 1 : 0;
   }
   return result;
 }

@@ -19,7 +19,6 @@ constexpr double kSamePart = 0.08;          // [m] from a part of the body: the 
 constexpr double kApart = 0.02;             // [m] nearer parts are one
 constexpr double kMostShare = 0.25;         // of the beams
 constexpr std::size_t kForgotten = 100;     // sweeps on end that do not meet a part
-constexpr double kRimDegrees = 1.0;         // [deg] beside a part, and at least a beam: a beam there grazes it
 constexpr double kAlone = 0.1;              // [m], and
 constexpr double kAloneShare = 0.05;        // of the range: nearer than what is seen beside
 
@@ -54,7 +53,6 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
   if (sweeps_ < kSweepsLearned) return learn(ranges, first_bearing, bearing_step, min_range);
   if (parts_.empty()) return;
   for (Part& part : parts_) ++part.missed;
-  bool has_met = false;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double range = static_cast<double>(ranges[i]);
     const Angle bearing = Angle::radians(first_bearing + static_cast<double>(i) * bearing_step);
@@ -63,32 +61,10 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
     for (Part& part : parts_) {
       if (distance(part.in_sensor, end) > kSamePart) continue;
       part.missed = 0;
-      has_met = true;
       ranges[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }
-  if (has_met) take_out_rims(ranges, first_bearing, bearing_step);
   std::erase_if(parts_, [](const Part& part) { return part.missed > kForgotten; });
-}
-
-void OwnBody::take_out_rims(std::span<float> ranges, double first_bearing, double bearing_step) const {
-  constexpr double kTurn = 6.283185307179586;
-  const double rim = std::max(Angle::degrees(kRimDegrees).radians(), 1.5 * bearing_step);
-  const auto beams = static_cast<double>(ranges.size());
-  std::vector<bool> grazes(ranges.size());
-  for (const Part& part : parts_) {
-    const double bearing = direction({}, part.in_sensor).radians();
-    const double range = norm(part.in_sensor);
-    for (const double turn : {-kTurn, 0.0, kTurn}) {
-      const double from = std::ceil(std::max(0.0, (bearing + turn - rim - first_bearing) / bearing_step));
-      const double to = std::min(beams - 1.0, (bearing + turn + rim - first_bearing) / bearing_step);
-      for (double i = from; i <= to; i += 1.0) {
-        const auto beam = static_cast<std::size_t>(i);
-        grazes[beam] = grazes[beam] || static_cast<double>(ranges[beam]) > range;
-      }
-    }
-  }
-  take_out_grazing(ranges, grazes);
 }
 
 void OwnBody::learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range) {

@@ -13,7 +13,8 @@ namespace docent {
 
 /// Takes out what beams read that graze a thing close by: where half of a beam ends on it and half behind, the reading
 /// lies anywhere between, and is of nothing. Such readings stand alone: they are nearer than what the first clear beams
-/// on both sides read. A person or a wall there is seen by these, too.
+/// on both sides read. A person or a wall there is seen by these, too. Live they stay: an obstacle more is on the safe
+/// side, a wider gap in which nothing is seen is not.
 /// @param grazes  [beams] those on the thing's rim and on it, if they did not end there
 void take_out_grazing(std::span<float> ranges, const std::vector<bool>& grazes);
 
@@ -46,7 +47,6 @@ class OwnBody {
     std::size_t missed = 0;  ///< sweeps on end
   };
   [[nodiscard]] bool is_inside(double range, Angle bearing, double more) const;
-  void take_out_rims(std::span<float> ranges, double first_bearing, double bearing_step) const;
   void learn(std::span<const float> ranges, double first_bearing, double bearing_step, double min_range);
   void conclude();
 

@@ -39,29 +39,6 @@ TEST(OwnBody, LearnsAPostAndTakesItOut) {
   EXPECT_FALSE(body.where().empty());
 }
 
-TEST(OwnBody, WhatItsRimMixesIsOfNothing) {
-  Rng rng{5};
-  OwnBody body{Pose2{}, 0.265, {}};
-  for (int sweep = 0; sweep < 60; ++sweep) {
-    auto ranges = sweep_of(rng, 3.0);
-    const bool is_mixed = sweep % 2 == 1;
-    if (is_mixed) {  // half of the beam ends on the post
-      ranges[90] = 0.6F;
-      ranges[89] = 1.9F;
-      ranges[96] = 0.3F;
-    }
-    for (std::size_t beam = 85; beam < 92; ++beam)  // somebody behind the post
-      if (sweep >= 30) ranges[beam] = beam < 89 || !is_mixed ? 1.2F : ranges[beam];
-    body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
-    if (sweep < 10) continue;
-    EXPECT_EQ(std::isnan(ranges[90]), is_mixed) << sweep;
-    EXPECT_EQ(std::isnan(ranges[96]), is_mixed) << sweep;
-    EXPECT_EQ(std::isnan(ranges[89]), is_mixed && sweep < 30) << "behind whom they stand is seen beside the post";
-    EXPECT_FALSE(std::isnan(ranges[87]));
-    EXPECT_FALSE(std::isnan(ranges[99]));
-  }
-}
-
 TEST(OwnBody, GrazingReadingsAtTheEndsOfTheFieldAndBesideNothing) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   std::vector<float> ranges{0.5F, 2.0F, 2.0F, 0.0F, 0.7F, kInf, 4.0F, kInf};
