@@ -14,7 +14,7 @@ struct Case {
   bool is_mirrored = false;
   double late = 0.0;
   double field = std::numbers::pi;
-  double way = 20.0;  ///< [m] with some turns in it
+  double way = 30.0;  ///< [m] with some turns in it
   double turn = 1.0;  ///< degrees of odometry for a true one
   bool has_people = false;
   std::uint64_t seed = 1;
@@ -58,7 +58,7 @@ TEST(TurningSide, TellsWhichWayUpOfAnyFieldAmongPeopleAndWithLateStamps) {
     for (const double field : {std::numbers::pi, 1.5 * std::numbers::pi, 2.0 * std::numbers::pi})
       for (const double late : {0.0, 0.1, -0.05})
         for (const bool has_people : {false, true})
-          EXPECT_EQ(side_after({is_mirrored, late, field, 20.0, 1.0, has_people}),
+          EXPECT_EQ(side_after({is_mirrored, late, field, 30.0, 1.0, has_people}),
                     is_mirrored ? TurningSide::Side::mirrored : TurningSide::Side::right)
               << field << " rad, " << late << " s late, people " << has_people;
 }
