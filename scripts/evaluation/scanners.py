@@ -1,11 +1,13 @@
 """Eight kinds of scanners as they are sold, each as all that a base has, in two museums: how soon the robot is here, how exact, and what
-it touches; the same from recordings made with them; and a robot that holds far readings against near expectations, which must get lost."""
+it touches; the same from recordings made with them; scanners that hang and of which nobody says so, which must be named; and a robot that holds
+far readings against near expectations, which must get lost."""
 import csv
 import json
 import math
 import subprocess
 
 from evaluation.reports import contacts_of
+from evaluation.scan_twins import Twins
 from evaluation.tables import Verdict, print_table
 
 # field [deg], beams, rate [Hz], reach [m], the rest as in robot.yaml.
@@ -22,9 +24,13 @@ KINDS = {
 }
 POSTS = "body.posts=[[0.15, 0.12, 0.01], [0.15, -0.12, 0.01], [-0.2, 0.0, 0.01]]"
 SLICE = ["4 m, 240 deg, writes 0", "12 m, 360 deg, clockwise, posts", "80 m, 190 deg, 25 Hz"]
+SLICE_RECORDED = ["12 m, 360 deg, clockwise, posts", "30 m, 270 deg, 40 Hz, hangs"]
+SHORT = {"4 m, 240 deg, writes 0": 4.0, "8 m, 360 deg, 90 beams, 5 Hz": 8.0}  # [m] of which one turn may tell too little
+HANGS = ["20 m, 270 deg, 25 Hz", "30 m, 270 deg, 40 Hz, hangs", "8 m, 360 deg, 90 beams, 5 Hz"]  # otherwise than is said
+NAMED_M, SAYS_MIRRORED = 10.0, "mirrors left and right"  # of way within which it is named
 FAR = ["20 m, 270 deg, 25 Hz", "80 m, 190 deg, 25 Hz"]  # what the crippled robot is given
 MUSEUMS = ["bonn", "smithsonian"]
-MINUTES, SEEDS, SLICE_MINUTES = 6, 5, 1.5
+MINUTES, SEEDS, SLICE_MINUTES, MIRRORED_MINUTES = 6, 5, 1.5, 1
 # As exact as a scanner that ends where the model does: at most 5 cm, or one and a half times its error in that museum.
 ORDINARY = "10 m, 180 deg"
 HERE_S, ERROR_M, ERROR_TIMES, LOST_SHARE = 10.0, 0.05, 1.5, 0.05
@@ -58,12 +64,18 @@ def mean_error(reports):
     return math.inf if None in known else sum(known) / len(known)
 
 
-def judge(verdict, kind, museum, reports, ordinary):
-    """@param ordinary  reports of ORDINARY in that museum, or none"""
-    after = sorted(here_after(r) for r in reports)
+def judge(verdict, kind, museum, reports, ordinary, twins):
+    """@param ordinary  reports of ORDINARY in that museum, or none
+    @param twins  of each run's first place, how many others look the same to this scanner in a whole turn without people"""
+    late = [(here_after(r), t) for r, t in zip(reports, twins) if here_after(r) > HERE_S]
     name = f"{kind}, {museum}"
-    verdict.want(f"{name}: here within {HERE_S:g} s (nine of ten)", f"{sum(a <= HERE_S for a in after)} of {len(after)}, the last after {after[-1]:.1f} s",
-                 10 * sum(a <= HERE_S for a in after) >= 9 * len(after))
+    owed = [t for t in twins if t == 0]
+    verdict.want(f"{name}: here within {HERE_S:g} s (nine of ten, of those whose first place has no twin)",
+                 f"{len(owed) - sum(t == 0 for _, t in late)} of {len(owed)}, the last of all after {max(map(here_after, reports)):.1f} s",
+                 10 * sum(t == 0 for _, t in late) <= len(owed))
+    if len(owed) < len(twins):
+        verdict.note(f"{name}: begun where a turn cannot tell", f"{len(twins) - len(owed)} of {len(twins)}, here within {HERE_S:g} s: "
+                     f"{len(twins) - len(owed) - sum(t > 0 for _, t in late)}")
     seconds = sum(r["virtual_seconds"] for r in reports)
     most = max([ERROR_M, *([ERROR_TIMES * mean_error(ordinary)] if ordinary else [])])
     verdict.want(f"{name}: mean error (at most {100 * most:.1f} cm)", f"{100 * mean_error(reports):.1f} cm in {seconds:.0f} s", mean_error(reports) <= most)
@@ -73,6 +85,35 @@ def judge(verdict, kind, museum, reports, ordinary):
     driven, touched = sum(r["distance_m"] for r in reports), sum(map(contacts_of, reports))
     verdict.want(f"{name}: contacts and area violations", f"{touched + sum(r['area_violations'] for r in reports)} in {driven:.0f} m",
                  touched == 0 and driven >= 2 * len(reports))
+
+
+def twins_of(kind, museum, logged):
+    """[runs] how many places look like the first one, see scan_twins."""
+    if kind not in SHORT:
+        return [0] * len(logged)
+    plan = Twins(museum, SHORT[kind])
+    firsts = [next(csv.DictReader(kept["csv"].read_text().splitlines())) for kept, _ in logged]
+    return [plan.of(float(row["true_x"]), float(row["true_y"]))[1] for row in firsts]
+
+
+def mirrored(simulations, kinds, museum, minutes, seeds, verdict):
+    """Scanners that hang and are said to stand, or the reverse, and the same as they are said."""
+    for kind in kinds:
+        for is_wrong in (True, False):
+            scenario = f"build: {{mirrored: [{'front' if is_wrong else ''}]}}\nevents: []\n"
+            run = lambda seed: simulations.run_logged("scanners", simulations.museums / museum, seed, minutes / 60, ["--crowd", "busy", *settings_of(kind)],
+                                                      {"--claims": "csv", "--health-log": "health.csv"}, scenario)
+            named, worst, touched, driven = 0, 0.0, 0, 0.0
+            for kept, report in simulations.each(run, [(seed,) for seed in seeds]):
+                touched, driven = touched + contacts_of(report), driven + report["distance_m"]
+                said = [row for row in csv.DictReader(kept["health.csv"].read_text().splitlines()) if SAYS_MIRRORED in row["reason"]]
+                if said:
+                    beliefs = csv.DictReader(kept["csv"].read_text().splitlines())
+                    ways = [float(row["distance"]) for row in beliefs if float(row["time"]) <= float(said[0]["time"])]
+                    named, worst = named + 1, max([worst, *ways[-1:]])
+            what = f"mirrored unsaid: named (within {NAMED_M:g} m), contacts" if is_wrong else "as it is said: named (never), contacts"
+            verdict.want(f"{kind}, {museum}, {what}", f"{named} of {len(seeds)} after {worst:.1f} m, {touched} contacts in {driven:.0f} m",
+                         touched == 0 and (named == len(seeds) and worst <= NAMED_M if is_wrong else named == 0))
 
 
 def reference_of(claims, recording_begins):
@@ -133,16 +174,18 @@ def protocol(simulations, options):
     minutes = options.minutes or (SLICE_MINUTES if options.slice else MINUTES)
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else SEEDS)))
     print(f"\n## {len(kinds)} scanners in {' and '.join(museums)}, busy, {len(seeds)} seeds x {minutes:g} minutes each\n")
-    runs = lambda kind, museum, some, more=(): simulations.of_seeds(
-        "scanners", simulations.museums / museum, some, minutes, ["--crowd", "busy", *settings_of(kind), *more])
-    made = {(kind, museum): runs(kind, museum, seeds) for kind in kinds for museum in museums}
+    calls = [(kind, museum) for kind in kinds for museum in museums]
+    logged = {(kind, museum): simulations.each(simulations.run_logged, [
+        ("scanners", simulations.museums / museum, seed, minutes / 60, ["--crowd", "busy", *settings_of(kind)], {"--claims": "csv"}) for seed in seeds])
+        for kind, museum in calls}
+    made = {call: [report for _, report in runs] for call, runs in logged.items()}
     print_table(HEADER, [row_of(kind, museum, reports) for (kind, museum), reports in made.items()])
     print()
     verdict = Verdict()
     for (kind, museum), reports in made.items():
-        judge(verdict, kind, museum, reports, made.get((ORDINARY, museum)))
-    if not options.slice:
-        recordings(simulations, kinds, museums, minutes, seeds[:2], verdict)
+        judge(verdict, kind, museum, reports, made.get((ORDINARY, museum)), twins_of(kind, simulations.museums / museum, logged[kind, museum]))
+    recordings(simulations, SLICE_RECORDED if options.slice else kinds, museums, minutes, seeds[:2], verdict)
+    mirrored(simulations, HANGS[:1] if options.slice else HANGS, MUSEUMS[0], MIRRORED_MINUTES, seeds, verdict)
     if not options.no_crippled:
         crippled(simulations, FAR[-1:] if options.slice else FAR, MUSEUMS[-1], minutes, seeds, verdict)
     verdict.print()

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import threading
 import time
 
 from evaluation.keys import key_of
@@ -52,8 +53,8 @@ class Simulations:
         folder.mkdir(parents=True, exist_ok=True)
         stem = f"{museum.name}-seed{seed}-{key}"
         kept = {kind: folder / f"{stem}.{kind}" for kind in (*logs.values(), "json")}
-        if not kept["json"].exists():
-            part = {kind: folder / f"{stem}.part{os.getpid()}.{kind}" for kind in (*kept, "yaml")}
+        if not all(path.exists() for path in kept.values()):  # a run without these logs may have been made before
+            part = {kind: folder / f"{stem}.part{os.getpid()}-{threading.get_ident()}.{kind}" for kind in (*kept, "yaml")}
             command = [program_for(self.docent, arguments), "simulate", "--museum", museum, "--hours", f"{hours:.6f}", "--seed", str(seed),
                        "--report", part["json"], "--quiet", *arguments]
             for option, kind in logs.items():

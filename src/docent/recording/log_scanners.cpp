@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "docent/messages/scanners/own_body.h"
 #include "docent/messages/scanners/zero_meaning.h"
 
 namespace docent::recording {
@@ -73,9 +74,14 @@ bool take_out_body(const Scans& scans) {
       if (fixed[beside] > 0.0F && std::abs(range - fixed[beside]) <= kSamePart) return true;
     return false;
   };
-  for (LoggedScan* const scan : scans)
+  std::vector<bool> on_rim(beams);
+  for (std::size_t beam = 0; beam < beams; ++beam)
+    on_rim[beam] = fixed[beam] > 0.0F || fixed[(beam + 1) % beams] > 0.0F || fixed[(beam + beams - 1) % beams] > 0.0F;
+  for (LoggedScan* const scan : scans) {
     for (std::size_t beam = 0; beam < beams; ++beam)
       if (is_body(beam, scan->ranges[beam])) scan->ranges[beam] = kNoReading;
+    take_out_grazing(scan->ranges, on_rim);
+  }
   return true;
 }
 

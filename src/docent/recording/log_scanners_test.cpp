@@ -57,6 +57,16 @@ TEST(LogScanners, WhatNeverMovesIsTheRobotItself) {
     for (std::size_t beam = 0; beam < 360; ++beam)
       EXPECT_EQ(std::isnan(log.scans[i].ranges[beam]), beam >= 90 && beam < 95) << i << ", " << beam;
 
+  LaserLog mixed = before;  // a beam that grazes the post reads anything behind it
+  for (LoggedScan& scan : mixed.scans) scan.ranges[95] = 0.6F;
+  for (std::size_t i = 0; i < mixed.scans.size(); i += 2) mixed.scans[i].ranges[89] = 0.9F;
+  settle_scanners(mixed, frames_of(mixed));
+  for (std::size_t i = 0; i < mixed.scans.size(); ++i) {
+    EXPECT_TRUE(std::isnan(mixed.scans[i].ranges[95])) << i;
+    EXPECT_EQ(std::isnan(mixed.scans[i].ranges[89]), i % 2 == 0) << i;
+    EXPECT_FALSE(std::isnan(mixed.scans[i].ranges[88])) << i;
+  }
+
   LaserLog standing = before;  // a wall beside a robot that does not drive says nothing
   for (LoggedScan& scan : standing.scans) scan.odom_from_base = {};
   settle_scanners(standing, frames_of(standing));

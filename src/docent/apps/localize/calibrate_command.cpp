@@ -37,7 +37,8 @@ std::vector<mapping::NominalScanner> scanners_of(const recording::LaserLog& log)
              std::abs((known.base_from_sensor.theta - scan.base_from_laser.theta).radians()) < 1e-9;
     };
     if (std::none_of(scanners.begin(), scanners.end(), is_it))
-      scanners.push_back({"laser " + std::to_string(scanners.size() + 1), scan.base_from_laser});
+      scanners.push_back({"laser " + std::to_string(scanners.size() + 1), scan.base_from_laser,
+                          scan.bearing_step < 0.0});  // turned over as it was read: it is said to hang
   }
   return scanners;
 }
@@ -56,7 +57,7 @@ void name_by_robot(std::vector<mapping::NominalScanner>& scanners, const robot::
       if (!is_taken[i] && (!nearest || apart(i) < apart(*nearest))) nearest = i;
     if (!nearest) continue;
     is_taken[*nearest] = true;
-    scanner = {body.scanners[*nearest].name, body.scanners[*nearest].base_from_sensor()};
+    scanner = {body.scanners[*nearest].name, body.scanners[*nearest].base_from_sensor(), scanner.is_upside_down};
   }
 }
 

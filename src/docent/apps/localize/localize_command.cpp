@@ -210,9 +210,10 @@ std::unique_ptr<localization::Localizer> make_localizer(const Options& options, 
   return std::make_unique<localization::MarkovLocalizer>(map, params.grid, cache, options.seed);
 }
 
-MethodParams params_for(const Options& options, const OccupancyGrid& map, const recording::LaserLog& log) {
+MethodParams params_for(const Options& options, const OccupancyGrid& map, const recording::LaserLog& log,
+                        double moving) {
   robot::RobotConfig config;
-  value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented));
+  value_or_fail(set_log_defaults(config, map, log.max_range, log.times_are_invented, moving));
   value_or_fail(config.set("localize.particles={most: 300000, reserve: 30000, draw_every: 1}"));  // there is time
   // Of its poses drawn elsewhere some always weigh: a set of particles is hardly ever sure over metres on end.
   // And raw odometry may veer by some degrees a metre, always to one side: where the grid's sea has neighbouring
@@ -289,6 +290,16 @@ void say_still(const recording::LaserLog& log) {
         "makes odometry from them\n");
 }
 
+/// Whether people walk through it: [share of the readings].
+double say_moving(const recording::LaserLog& log) {
+  const double moving = moving_share(log);
+  if (moving >= kCrowdShare)
+    std::fprintf(stderr,
+                 "note: people walk through this log (%.1f %% of the readings): what has their shape counts less\n",
+                 100.0 * moving);
+  return moving;
+}
+
 /// The log as it is localized: with the odometry that was asked for, and from the first scan whose pose is known where
 /// the start is.
 ReferencedLog load_log(const Options& options) {
@@ -307,7 +318,8 @@ void localize(const Options& options) {
   say_classes(options.map, map);
   const recording::LaserLog& log = referenced.log;
   const bool has_reference = !options.choice.reference.empty();
-  MethodParams params = params_for(options, map, log);
+  const double moving = say_moving(log);
+  MethodParams params = params_for(options, map, log, moving);
   const localization::StateSpace space{map, sensor_models::RayCaster{map}, params.grid.states};
   if (space.places() == 0) throw CommandFailed{options.map + ": no free place in this map"};
   check_start(options, map, space);
@@ -325,6 +337,7 @@ void localize(const Options& options) {
       run_once(options, referenced, map, hindsight, *localizer, options.reverse, "localized", options.picture);
   const sensor_models::RayCaster caster{map};
   nlohmann::json report = report_of(log, run, caster);
+  report["moving_share"] = moving;
   report["map"] = options.map;
   report["log"] = options.choice.log;
   report["scans_used"] = options.choice.scans;

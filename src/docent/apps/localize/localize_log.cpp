@@ -8,6 +8,7 @@
 
 #include "docent/apps/shared/log_defaults.h"
 #include "docent/base/files.h"
+#include "docent/localization/beam_choice/moved_things.h"
 #include "docent/localization/judgement/view_matcher.h"
 
 namespace docent::apps::localize_command {
@@ -43,6 +44,27 @@ sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max
   const double reach = scan.max_range > 0.0 ? std::min(scan.max_range, max_range) : max_range;
   sensor_models::append(sweep, {scan.ranges, scan.first_bearing, scan.bearing_step, 0.02, reach}, {});
   return sweep;
+}
+
+double moving_share(const recording::LaserLog& log) {
+  constexpr std::size_t kPairs = 150;
+  constexpr double kApart = 0.8, kMostApart = 1.6;    // [s]: who walks has left his place, and odometry still holds
+  constexpr double kMostWay = 1.0, kMostTurn = 60.0;  // [m], [deg]: farther they see other things
+  localization::MovedThings sum;
+  const std::size_t stride = std::max<std::size_t>(1, log.scans.size() / kPairs);
+  for (std::size_t i = 0; i < log.scans.size(); i += stride) {
+    const recording::LoggedScan& before = log.scans[i];
+    const auto is_partner = [&](const recording::LoggedScan& scan) {
+      return scan.rear == before.rear && to_seconds(scan.time - before.time) >= kApart;
+    };
+    const auto now = std::find_if(log.scans.begin() + static_cast<std::ptrdiff_t>(i), log.scans.end(), is_partner);
+    if (now == log.scans.end() || to_seconds(now->time - before.time) > kMostApart) continue;
+    const Pose2 moved =
+        inverse(before.odom_from_base * before.base_from_laser) * now->odom_from_base * now->base_from_laser;
+    if (norm(moved.position()) > kMostWay || std::abs(moved.theta.degrees()) > kMostTurn) continue;
+    sum += localization::moved_things(sweep_of(before, log.max_range), sweep_of(*now, log.max_range), moved);
+  }
+  return sum.share();
 }
 
 bool has_two_lasers(const recording::LaserLog& log) {

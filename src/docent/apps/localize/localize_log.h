@@ -70,6 +70,10 @@ void look_back(const recording::LaserLog& log, bool reverse, const sensor_models
 /// The scan in the laser's frame.
 [[nodiscard]] sensor_models::RangeSweep sweep_of(const recording::LoggedScan& scan, double max_range);
 
+/// Share of the log's readings that end on what has come or gone within a second, see localization::MovedThings:
+/// whether people walk through it. Of some hundred pairs of scans, evenly over the log. O(scans + pairs * beams)
+[[nodiscard]] double moving_share(const recording::LaserLog& log);
+
 /// Share of the valid endpoints within `distance` [m] of an occupied cell, over the scans since localization; nullopt:
 /// there is none.
 [[nodiscard]] std::optional<double> endpoints_near_walls(const recording::LaserLog& log, const LogRun& run,

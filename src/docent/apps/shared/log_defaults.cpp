@@ -13,7 +13,7 @@ double reach_of_log(double max_range) {
 }
 
 Result<void> set_log_defaults(robot::RobotConfig& config, const OccupancyGrid& map, double max_range,
-                              bool times_are_invented) {
+                              bool times_are_invented, double moving_share) {
   constexpr double kReadingsOfPart = 5000.0;  // [1/m2]: 12 in a map of 5 cm, 50 in one of 10 cm
   // A map's cells are as coarse as its walls are uncertain.
   const double sigma = std::hypot(0.13, 1.5 * map.frame.resolution);
@@ -32,13 +32,15 @@ Result<void> set_log_defaults(robot::RobotConfig& config, const OccupancyGrid& m
                std::to_string(kReadingsOfPart * std::pow(map.frame.resolution, 2)) + "}",
            // How far such a map's walls are off nobody has measured.
            std::string{"exact_walls=false"},
-           // Shapes of people were learned in simulated halls: many a building has slim parts that look alike.
-           std::string{"person_share=1"},
            // Nobody waits for the next scan: states sink later than in a robot.
            std::string{"sea_threshold=0.00001"},
        }) {
     if (auto set = config.set("localize." + setting); !set) return set;
   }
+  // Shapes of people were learned in simulated halls: many a building has slim parts that look alike, so they are asked
+  // only where a crowd walks through the log.
+  if (moving_share < kCrowdShare)
+    if (auto set = config.set("localize.person_share=1"); !set) return set;
   // Steps of time that nobody measured say nothing of the time there was for an update.
   return times_are_invented ? config.set("localize.work_per_second=1e15") : Result<void>{};
 }

@@ -54,6 +54,11 @@ Result<void> build_wrongly(simulator::Hardware& hardware, const simulator::Build
     if (scanner == hardware.scanners.end()) return fail("build.late: there is no scanner " + name);
     scanner->late = late;
   }
+  for (const std::string& name : errors.mirrored) {
+    const auto scanner = find(name);
+    if (scanner == hardware.scanners.end()) return fail("build.mirrored: there is no scanner " + name);
+    scanner->kind.is_upside_down = !scanner->kind.is_upside_down;
+  }
   hardware.odometry_way = errors.way;
   hardware.odometry_rate = errors.rate;
   hardware.odometry_turn = errors.turn;

@@ -78,12 +78,20 @@ void say(CalibratedScanner& scanner, const Contradictions& what, const NominalSc
   if (!scanner.finding.empty()) scanner.finding = "scanner " + nominal.name + ": " + scanner.finding.substr(kAnd);
 }
 
+/// What to do about a scanner that sees the room turn the wrong way.
+std::string mirrored(const NominalScanner& scanner) {
+  return "scanner " + scanner.name + ": mirrors left and right: " +
+         (scanner.is_upside_down ? "its driver turns the sweeps over by itself? write upside_down: false"
+                                 : "it hangs upside down? write upside_down: true") +
+         " in body.scanners (or the odometry turns the wrong way)";
+}
+
 }  // namespace
 
 MountCalibrator::MountCalibrator(const MountCalibratorParams& params, std::vector<NominalScanner> scanners)
     : params_{params}, nominal_{std::move(scanners)} {
   for (const NominalScanner& scanner : nominal_) {
-    followers_.push_back({ScanFollower{params.follower}, {}, vague_prior(scanner.base_from_sensor, params.fit), 0});
+    followers_.push_back({ScanFollower{params.follower}, {}, {}, vague_prior(scanner.base_from_sensor, params.fit), 0});
     CalibratedScanner result;
     result.estimate.state.base_from_sensor = scanner.base_from_sensor;
     result.estimate.covariance = followers_.back().prior.sigma.cwiseAbs2().asDiagonal();
@@ -97,7 +105,10 @@ void MountCalibrator::move(Time stamp, const Pose2& odom_from_base) {
   if (reading.is_late) return;
   if (reading.is_set_back) odometry_.forget();
   if (reading.jumped || reading.is_set_back)
-    for (Follower& follower : followers_) follower.sweeps.forget();
+    for (Follower& follower : followers_) {
+      follower.sweeps.forget();
+      follower.turning.forget();
+    }
   if (!odometry_.empty()) {
     const Pose2 moved = inverse(odometry_.latest()) * reading.odom_from_base;
     way_ += norm(moved.position());
@@ -111,6 +122,7 @@ void MountCalibrator::move(Time stamp, const Pose2& odom_from_base) {
 
 void MountCalibrator::see(std::size_t scanner, Time stamp, const sensor_models::LaserReading& reading) {
   if (!rests(followers_[scanner])) followers_[scanner].sweeps.keep(stamp, reading);
+  followers_[scanner].turning.keep(stamp, reading);
 }
 
 void MountCalibrator::rest(Follower& follower) const {
@@ -131,6 +143,9 @@ bool MountCalibrator::work() {
   bool is_new = false;
   for (std::size_t i = 0; i < followers_.size(); ++i) {
     Follower& follower = followers_[i];
+    const auto side_before = follower.turning.side();
+    follower.turning.follow(odometry_);
+    is_new = is_new || follower.turning.side() != side_before;
     const double way = results_[i].is_known ? params_.follower.way : params_.follower.first_way;
     const auto pairs = follower.sweeps.follow(odometry_, results_[i].estimate.state.base_from_sensor, way);
     for (const MotionPair& pair : pairs) follower.pairs.push_back(pair);
@@ -270,7 +285,13 @@ CalibratedBase MountCalibrator::base() const {
 }
 
 bool MountCalibrator::is_known() const {
-  return std::all_of(results_.begin(), results_.end(), [](const auto& scanner) { return scanner.is_known; });
+  return !is_mirrored() &&
+         std::all_of(results_.begin(), results_.end(), [](const auto& scanner) { return scanner.is_known; });
+}
+
+bool MountCalibrator::is_mirrored() const {
+  return std::any_of(followers_.begin(), followers_.end(),
+                     [](const Follower& follower) { return follower.turning.side() == TurningSide::Side::mirrored; });
 }
 
 std::string MountCalibrator::finding() const {
@@ -278,7 +299,8 @@ std::string MountCalibrator::finding() const {
   const auto add = [&all](const std::string& finding) {
     if (!finding.empty()) all += (all.empty() ? "" : "; ") + finding;
   };
-  for (const CalibratedScanner& scanner : results_) add(scanner.finding);
+  for (std::size_t i = 0; i < results_.size(); ++i)
+    add(followers_[i].turning.side() == TurningSide::Side::mirrored ? mirrored(nominal_[i]) : results_[i].finding);
   add(base().finding);
   return all;
 }

@@ -8,6 +8,7 @@
 #include "docent/mapping/mount_calibration/calibration_params.h"
 #include "docent/mapping/mount_calibration/mount_fit.h"
 #include "docent/mapping/mount_calibration/scan_follower.h"
+#include "docent/mapping/mount_calibration/turning_side.h"
 #include "docent/motion_models/odometry_history.h"
 #include "docent/motion_models/unbroken_odometry.h"
 
@@ -17,6 +18,7 @@ namespace docent::mapping {
 struct NominalScanner {
   std::string name;
   Pose2 base_from_sensor;
+  bool is_upside_down = false;  ///< it is said to hang, and its sweeps come here turned over
 };
 
 /// What is known of a scanner.
@@ -61,13 +63,16 @@ class MountCalibrator {
   [[nodiscard]] const std::vector<NominalScanner>& nominal() const { return nominal_; }      ///< [scanners]
   [[nodiscard]] CalibratedBase base() const;
   /// Mounts are not known, and it may be that a few metres more will tell.
-  [[nodiscard]] bool is_slow() const { return !is_known() && way_ < params_.unknown_way; }
+  /// A scanner that mirrors left and right slows it down for ever.
+  [[nodiscard]] bool is_slow() const { return is_mirrored() || (!is_known() && way_ < params_.unknown_way); }
   [[nodiscard]] bool is_known() const;        ///< all mounts are
+  [[nodiscard]] bool is_mirrored() const;     ///< some scanner's left and right are, see TurningSide
   [[nodiscard]] std::string finding() const;  ///< all that contradicts robot.yaml, in words; empty: nothing
 
  private:
   struct Follower {
     ScanFollower sweeps;
+    TurningSide turning;
     std::deque<MotionPair> pairs;
     MountPrior prior;
     std::size_t remembered = 0;  ///< pairs that the prior comes of

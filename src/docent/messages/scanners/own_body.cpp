@@ -19,8 +19,29 @@ constexpr double kSamePart = 0.08;          // [m] from a part of the body: the 
 constexpr double kApart = 0.02;             // [m] nearer parts are one
 constexpr double kMostShare = 0.25;         // of the beams
 constexpr std::size_t kForgotten = 100;     // sweeps on end that do not meet a part
+constexpr double kAlone = 0.1;              // [m], and
+constexpr double kAloneShare = 0.05;        // of the range: nearer than what is seen beside
 
 }  // namespace
+
+void take_out_grazing(std::span<float> ranges, const std::vector<bool>& grazes) {
+  const std::size_t beams = ranges.size();
+  // The first clear reading from a beam on, to one side; infinity: there is none.
+  const auto beside = [&](std::size_t beam, std::size_t step) {
+    for (std::size_t k = 1; k < beams; ++k) {
+      const std::size_t at = (beam + k * step) % beams;
+      if (!grazes[at] && ranges[at] > 0.0F) return ranges[at];
+    }
+    return std::numeric_limits<float>::infinity();
+  };
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    if (!grazes[beam] || std::isnan(ranges[beam])) continue;
+    const float nearest = std::min(beside(beam, 1), beside(beam, beams - 1));
+    const auto range = static_cast<double>(ranges[beam]);
+    if (range < static_cast<double>(nearest) - kAlone - kAloneShare * range)
+      ranges[beam] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
 
 bool OwnBody::is_inside(double range, Angle bearing, double more) const {
   const Point2 in_base = base_from_sensor_ * (range * unit(bearing));

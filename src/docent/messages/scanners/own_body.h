@@ -11,6 +11,13 @@
 
 namespace docent {
 
+/// Takes out what beams read that graze a thing close by: where half of a beam ends on it and half behind, the reading
+/// lies anywhere between, and is of nothing. Such readings stand alone: they are nearer than what the first clear beams
+/// on both sides read. A person or a wall there is seen by these, too. Live they stay: an obstacle more is on the safe
+/// side, a wider gap in which nothing is seen is not.
+/// @param grazes  [beams] those on the thing's rim and on it, if they did not end there
+void take_out_grazing(std::span<float> ranges, const std::vector<bool>& grazes);
+
 /// What a scanner sees of the robot that carries it: posts, a mast, cables. It never moves with respect to the scanner
 /// and lies inside the body, so it is learned from the first sweeps and taken out of all that follow. Something else at
 /// the same place cannot be seen there; what is nearer or farther along the same beam is.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "docent/base/random.h"
 
@@ -35,6 +37,17 @@ TEST(OwnBody, LearnsAPostAndTakesItOut) {
   }
   EXPECT_FALSE(body.is_too_much());
   EXPECT_FALSE(body.where().empty());
+}
+
+TEST(OwnBody, GrazingReadingsAtTheEndsOfTheFieldAndBesideNothing) {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  std::vector<float> ranges{0.5F, 2.0F, 2.0F, 0.0F, 0.7F, kInf, 4.0F, kInf};
+  const std::vector<bool> grazes{true, false, false, false, true, true, false, false};
+  take_out_grazing(ranges, grazes);
+  EXPECT_TRUE(std::isnan(ranges[0]));
+  EXPECT_TRUE(std::isnan(ranges[4])) << "0 says nothing; 2 m and 4 m do";
+  EXPECT_EQ(ranges[5], kInf);
+  EXPECT_EQ(ranges[1], 2.0F);
 }
 
 TEST(OwnBody, WhatStandsBesideTheRobotIsNone) {

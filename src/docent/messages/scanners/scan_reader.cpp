@@ -46,7 +46,23 @@ const DriverScan& ScanReader::read(const DriverScan& written) {
     if (!(range > 0.0F)) range = std::numeric_limits<float>::quiet_NaN();
   }
   scan_.ranges = ranges_;
+  note_answers();
   return scan_;
+}
+
+void ScanReader::note_answers() {
+  constexpr double kMemory = 0.05;  // a sweep's share in the running mean
+  const auto reach = static_cast<float>(scan_.max_range);
+  const auto fit = std::count_if(ranges_.begin(), ranges_.end(), [](float range) { return !std::isnan(range); });
+  const auto met = std::count_if(ranges_.begin(), ranges_.end(), [reach](float range) { return range < reach; });
+  if (fit > 0) answered_ += kMemory * (static_cast<double>(met) / static_cast<double>(fit) - answered_);
+}
+
+std::string ScanReader::hindrance() const {
+  constexpr double kLittle = 0.25;  // halls in which one place looks like another for a scanner of 4 m are so
+  if (answered_ >= kLittle) return {};
+  return "meets something in " + std::to_string(std::lround(100.0 * answered_)) +
+         " % of its directions only: little stands within its " + metres(scan_.max_range);
 }
 
 std::vector<std::string> ScanReader::notes() const {

@@ -43,11 +43,14 @@ class ScanReader {
 
   /// What a technician should know of this scanner, a clause each; empty: nothing.
   [[nodiscard]] std::vector<std::string> notes() const;
+  /// What of its sight keeps a robot from finding its place, a clause; empty: nothing. It comes and goes.
+  [[nodiscard]] std::string hindrance() const;
   /// What its driver means by 0, as its owner says or as far as one knows.
   [[nodiscard]] ZeroMeans zero() const { return traits_.zero == ZeroMeans::find_out ? zeros_.found() : traits_.zero; }
 
  private:
   void put_in_order(const DriverScan& written);
+  void note_answers();
 
   ScannerTraits traits_;
   ZeroMeaning zeros_;
@@ -55,6 +58,7 @@ class ScanReader {
   std::vector<float> ranges_;
   DriverScan scan_;
   double said_reach_ = 0.0;  ///< [m] of the newest message
+  double answered_ = 1.0;    ///< share of its readings that end on something, running mean
 };
 
 }  // namespace docent

@@ -74,5 +74,18 @@ TEST(ScanReader, AnUprightScannerThatFailsNowAndThenIsReadAsItStands) {
   EXPECT_EQ(reader.zero(), ZeroMeans::find_out);
 }
 
+TEST(ScanReader, SaysWhenItMeetsHardlyAnything) {
+  ScanReader reader{{}};
+  std::vector<float> ranges(180, kInf);
+  std::fill_n(ranges.begin(), 90, 2.0F);
+  std::fill_n(ranges.begin(), 20, std::nanf(""));
+  for (int sweep = 0; sweep < 100; ++sweep) (void)reader.read({ranges, -1.5, 0.017, 0.1, 4.0});
+  EXPECT_EQ(reader.hindrance(), "") << "70 of 160";
+  std::fill_n(ranges.begin() + 36, 54, kInf);
+  for (int sweep = 0; sweep < 100; ++sweep) (void)reader.read({ranges, -1.5, 0.017, 0.1, 4.0});
+  EXPECT_EQ(reader.hindrance(), "meets something in 10 % of its directions only: little stands within its 4.0 m");
+  EXPECT_TRUE(reader.notes().empty()) << "a large hall is no fault";
+}
+
 }  // namespace
 }  // namespace docent

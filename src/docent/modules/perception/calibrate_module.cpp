@@ -18,7 +18,8 @@ constexpr Duration kSavePeriod = std::chrono::seconds{20};
 
 std::vector<mapping::NominalScanner> scanners_of(const robot::RobotBody& body) {
   std::vector<mapping::NominalScanner> scanners;
-  for (const robot::Scanner& scanner : body.scanners) scanners.push_back({scanner.name, scanner.base_from_sensor()});
+  for (const robot::Scanner& scanner : body.scanners)
+    scanners.push_back({scanner.name, scanner.base_from_sensor(), scanner.upside_down});
   return scanners;
 }
 
@@ -69,7 +70,7 @@ class CalibrateModule final : public Module {
                                 scanner.doubt_position, scanner.is_known});
     }
     was_slow_ = calibrator_.is_slow();
-    if (was_slow_) message.most_speed = params_.unknown_speed;
+    if (was_slow_) message.most_speed = calibrator_.is_mirrored() ? params_.mirrored_speed : params_.unknown_speed;
     const mapping::CalibratedBase base = calibrator_.base();
     message.way_scale = base.way_scale;
     message.turn_scale = base.turn_scale;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "docent/geometry/polygon.h"
@@ -49,6 +50,7 @@ class CalibrateModule : public ModuleBench {
         if (const auto hit = ray_distance(sensor.position(), ray, wall)) range = std::min(range, *hit);
       scan.ranges.push_back(static_cast<float>(range));
     }
+    if (hangs) std::reverse(scan.ranges.begin(), scan.ranges.end());
     scans.publish(scan);
   }
 
@@ -58,6 +60,7 @@ class CalibrateModule : public ModuleBench {
     return all;
   }();
   Pose2 true_mount = Pose2{0.0, 0.0, Angle::degrees(12.0)};
+  bool hangs = false;  ///< and nobody says so
   Pose2 pose;
   int ticks = 0;
   docent_msgs::Calibration calibration;
@@ -81,6 +84,22 @@ TEST_F(CalibrateModule, IsSlowAtFirstThenNamesWhatIsWrongAndRemembersIt) {
   run(0.2);
   EXPECT_TRUE(calibration.mounts[0].is_known) << "after a new start";
   EXPECT_NEAR(calibration.mounts[0].heading, Angle::degrees(12.0).radians(), 0.02);
+}
+
+TEST_F(CalibrateModule, NamesAScannerThatHangsUnsaidAndCreeps) {
+  true_mount = {};
+  hangs = true;
+  start();
+  run(40.0);
+  EXPECT_EQ(module->health().state, "degraded");
+  EXPECT_NE(module->health().reason.find("scanner front: mirrors left and right"), std::string::npos)
+      << module->health().reason;
+  EXPECT_NEAR(calibration.most_speed, 0.1, 1e-9);
+  EXPECT_NE(calibration.finding.find("write upside_down: true"), std::string::npos);
+  ASSERT_TRUE(config.set("body.scanners=[{name: front, frame: laser, field: 180, upside_down: true}]"));
+  start();
+  run(40.0);
+  EXPECT_EQ(module->health().reason.find("mirrors"), std::string::npos) << module->health().reason;
 }
 
 TEST_F(CalibrateModule, OthersTakeWhatItFound) {

@@ -114,10 +114,11 @@ class LocalizeModule final : public Module {
     if (body_.scanners.empty()) return {"degraded", "body.scanners is empty: nothing tells where I am"};
     if (const auto scan = scan_silence_.first_silent(now)) return {"degraded", "no " + *scan};
     const std::string notes = scanners_->notes();
-    if (!watch_.is_localized())
-      return {"degraded", "I do not know where I am: " +
-                              localization::hindrance_of(watch_.verdict().doubt(), params_.markov.verdict) +
-                              (notes.empty() ? "" : "; " + notes)};
+    if (!watch_.is_localized()) {
+      std::string reason = localization::hindrance_of(watch_.verdict().doubt(), params_.markov.verdict);
+      for (const std::string& more : {scanners_->hindrances(), notes}) reason += more.empty() ? "" : "; " + more;
+      return {"degraded", "I do not know where I am: " + reason};
+    }
     if (const ModuleHealth sonars = sonars_ ? health_of_sonars(now) : ModuleHealth{}; !sonars.reason.empty())
       return sonars;
     return {"ready", notes};

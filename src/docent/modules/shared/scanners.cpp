@@ -50,6 +50,14 @@ std::string ScannerReaders::notes() const {
   return text;
 }
 
+std::string ScannerReaders::hindrances() const {
+  std::string text;
+  for (std::size_t i = 0; i < readers_.size(); ++i)
+    if (const std::string what = readers_[i].hindrance(); !what.empty())
+      text += (text.empty() ? "" : "; ") + topics_[i] + " " + what;
+  return text;
+}
+
 std::vector<Pose2> mounts_of(const std::vector<robot::Scanner>& scanners) {
   std::vector<Pose2> mounts;
   for (const robot::Scanner& scanner : scanners) mounts.push_back(scanner.base_from_sensor());

@@ -24,6 +24,8 @@ class ScannerReaders {
   [[nodiscard]] sensor_msgs::LaserScan read(std::size_t scanner, const sensor_msgs::LaserScan& scan);
   /// What a technician should know of the scanners: "scan_front writes 0 where …; …"; empty: nothing.
   [[nodiscard]] std::string notes() const;
+  /// What of their sight keeps a robot from finding its place, likewise.
+  [[nodiscard]] std::string hindrances() const;
 
  private:
   std::vector<std::string> topics_;

@@ -57,6 +57,9 @@ BuildErrors read_build_errors(const YamlFile& file, const YAML::Node& node) {
     } else if (key == "late") {
       for (const auto& scanner : mapping(file, entry.second))
         errors.late[scanner.first.Scalar()] = number(file, scanner.second, 0.0, kMostLate);
+    } else if (key == "mirrored") {
+      if (!entry.second.IsSequence()) throw YamlFault{file.fault(entry.second, "expected a list of scanners")};
+      for (const auto& scanner : entry.second) errors.mirrored.insert(scanner.Scalar());
     } else if (key == "odometry") {
       for (const auto& scale : mapping(file, entry.second)) {
         if (scale.first.Scalar() == "way")
@@ -71,7 +74,7 @@ BuildErrors read_build_errors(const YamlFile& file, const YAML::Node& node) {
     } else if (key == "start") {
       errors.start = pose(file, entry.second);
     } else {
-      refuse(file, entry.first, "mounts, late, odometry, start");
+      refuse(file, entry.first, "mounts, late, mirrored, odometry, start");
     }
   }
   return errors;

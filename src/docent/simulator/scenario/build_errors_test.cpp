@@ -8,7 +8,8 @@ namespace docent::simulator::build_errors_test {
 
 TEST(BuildErrors, AreReadOfAScenario) {
   const auto scenario = parse_scenario(
-      "build: {mounts: {front: {x: 0.1, heading: 10}}, late: {rear: 0.15}, odometry: {way: 1.05, rate: 50}, "
+      "build: {mounts: {front: {x: 0.1, heading: 10}}, late: {rear: 0.15}, mirrored: [front], "
+      "odometry: {way: 1.05, rate: 50}, "
       "start: {y: -0.5, heading: -5}}\nevents: []\n",
       "test");
   ASSERT_TRUE(scenario) << scenario.error().message;
@@ -16,6 +17,7 @@ TEST(BuildErrors, AreReadOfAScenario) {
   EXPECT_DOUBLE_EQ(build.mounts.at("front").x, 0.1);
   EXPECT_NEAR(build.mounts.at("front").theta.degrees(), 10.0, 1e-12);
   EXPECT_DOUBLE_EQ(build.late.at("rear"), 0.15);
+  EXPECT_EQ(build.mirrored, std::set<std::string>{"front"});
   EXPECT_DOUBLE_EQ(build.way, 1.05);
   EXPECT_DOUBLE_EQ(build.turn, 1.0);
   EXPECT_DOUBLE_EQ(build.rate, 50.0);
@@ -25,7 +27,7 @@ TEST(BuildErrors, AreReadOfAScenario) {
 TEST(BuildErrors, RefuseWhatNobodyMeans) {
   for (const char* wrong :
        {"build: {mount: {}}", "build: 3", "build: {mounts: {front: {z: 1}}}", "build: {late: {front: -1}}",
-        "build: {odometry: {way: 0}}", "build: {odometry: {rate: 200}}"})
+        "build: {odometry: {way: 0}}", "build: {odometry: {rate: 200}}", "build: {mirrored: front}"})
     EXPECT_FALSE(parse_scenario(std::string{wrong} + "\nevents: []\n", "test")) << wrong;
 }
 
