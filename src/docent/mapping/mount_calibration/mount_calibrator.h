@@ -80,7 +80,7 @@ class MountCalibrator {
   [[nodiscard]] static bool rests(const Follower& follower) {
     return follower.rest_way > 0.0 && follower.rest_turn > 0.0;
   }
-  void forget_old(Follower& follower, const MountState& state) const;
+  void forget_old(Follower& follower, const MountEstimate& before) const;
   void judge(std::size_t scanner);
 
   MountCalibratorParams params_;
