@@ -132,10 +132,10 @@ def is_owed(case):
     return abs(case["heading"]) >= OWED_HEADING or math.hypot(case["x"], case["y"]) >= OWED_PLACE or case["late"] >= 0.06
 
 
-def run_case(simulations, case, museum, seed, minutes, more=()):
+def run_case(simulations, case, museum, seed, minutes, more=(), requests=0):
     logs = {"--health-log": "health.csv", "--claims": "claims.csv"}
     paths, report = simulations.run_logged("mounts", simulations.museums / museum, seed, minutes / 60,
-                                           ["--crowd", "busy", "--requests-per-hour", "0", *more], logs, scenario_of(case, museum))
+                                           ["--crowd", "busy", "--requests-per-hour", requests, *more], logs, scenario_of(case, museum))
     return Outcome(case, paths, report)
 
 

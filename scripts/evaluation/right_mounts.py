@@ -16,6 +16,7 @@ from evaluation.tables import print_table
 
 STARTS, START_MINUTES = 20, 2.0  # of each museum
 HOURS = 0.5  # of a seed
+REQUESTS = 40  # an hour, after the tour
 LOGS = {"intel-raw": 12, "wean-1": 3, "wean-2": 6, "duke-loop5": 3, "sena-loop": 3}  # pieces of each
 NAMED_HEADING, NAMED_PLACE = 1.5, 0.03  # [deg], [m]: calibrate.named_heading and its like
 TRUE_ERRORS = 1.5  # root mean square of (piece - whole) / error told; 1 where they are true
@@ -28,7 +29,7 @@ def evaluate_right(simulations, verdict, options, run_case, right):
     first = options.first_seed + 100
     jobs = [(museum, seed, START_MINUTES) for museum in museums for seed in range(first, first + count)]
     jobs += [(museum, seed, 60 * HOURS) for museum in museums for seed in range(first, first + (0 if options.slice else max(1, count // 5)))]
-    runs = side_by_side([lambda job=job: run_case(simulations, right, *job) for job in jobs], simulations.jobs)
+    runs = side_by_side([lambda job=job: run_case(simulations, right, *job, requests=REQUESTS) for job in jobs], simulations.jobs)
     rows = []
     for museum in museums:
         for minutes in sorted({job[2] for job in jobs}):

@@ -119,22 +119,27 @@ NormalEquations linearised(std::span<const WeighedPair> pairs, const MountState&
 }
 
 /// Standard deviations by how far the pieces of the way contradict one another: pairs of one corridor err alike, which
-/// least squares takes for as many witnesses (covariance robust to clusters, K.-Y. Liang and S. Zeger, Biometrika 1986).
-/// 0: too few pieces.
-MountVector scatter(std::span<const WeighedPair> pairs, const MountState& state, const MountMatrix& covariance,
+/// least squares takes for as many witnesses. Each piece is left out in turn, to first order (jackknife over clusters:
+/// K.-Y. Liang and S. Zeger, Biometrika 1986, for clusters; B. Efron, 1982, for the jackknife). 0: too few pieces.
+MountVector scatter(std::span<const WeighedPair> pairs, const MountState& state, const MountMatrix& information,
                     const MountFitParams& params) {
   const auto size = static_cast<std::size_t>(params.piece);
   const std::size_t pieces = pairs.size() / size;  // what is left over belongs to the last one
   if (pieces < static_cast<std::size_t>(params.fewest_pieces)) return MountVector::Zero();
-  MountMatrix spread = MountMatrix::Zero();
+  MountVector squares = MountVector::Zero();
   for (std::size_t k = 0; k < pieces; ++k) {
-    MountVector pull = MountVector::Zero();
+    NormalEquations piece{MountMatrix::Zero(), MountVector::Zero()};
     const std::size_t end = k + 1 == pieces ? pairs.size() : (k + 1) * size;
-    for (std::size_t i = k * size; i < end; ++i) pull += linearised(pairs[i], state, params.outlier).pull;
-    spread += pull * pull.transpose();
+    for (std::size_t i = k * size; i < end; ++i) {
+      const NormalEquations one = linearised(pairs[i], state, params.outlier);
+      piece.information += one.information;
+      piece.pull += one.pull;
+    }
+    const MountMatrix rest = information - piece.information;
+    squares += rest.ldlt().solve(piece.pull).cwiseAbs2();
   }
-  const double few = static_cast<double>(pieces) / static_cast<double>(pieces - 1);
-  return (few * covariance * spread * covariance).diagonal().cwiseSqrt();
+  const double few = static_cast<double>(pieces - 1) / static_cast<double>(pieces);
+  return (few * squares).cwiseSqrt();
 }
 
 /// The heading from which the search ends best: with a scanner that looks elsewhere the nearest one may be none.
@@ -198,9 +203,8 @@ MountEstimate fit_mount(std::span<const MotionPair> pairs, const MountPrior& pri
   }
   if (!weighed.empty()) estimate.misfit /= static_cast<double>(weighed.size());
   const double worse = params.caution * std::max(1.0, std::sqrt(estimate.misfit / 3.0));
-  const MountMatrix covariance = sums.information.inverse();
-  estimate.covariance = worse * worse * covariance;
-  const MountVector apart = scatter(weighed, estimate.state, covariance, params);
+  estimate.covariance = worse * worse * sums.information.inverse();
+  const MountVector apart = scatter(weighed, estimate.state, sums.information, params);
   for (int i = 0; i < kMountUnknowns; ++i) {
     const double larger = std::max(1.0, apart[i] / estimate.sigma(static_cast<MountUnknown>(i)));
     estimate.covariance.row(i) *= larger;
