@@ -90,7 +90,7 @@ class ExploreModule final : public Module {
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, [this](const auto& odometry) { move(odometry); });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
       surveyor_.mount(i, place.base_from_sensor);
-      see(i, scan);
+      see(i, scan, seconds(place.delay));
     });
     bus_.subscribe<docent_msgs::Stop>(
         topics::kStop, [this, view = StopView{}](const auto& stop) mutable { surveyor_.note_stop(view.see(stop)); });
@@ -122,8 +122,9 @@ class ExploreModule final : public Module {
     surveyor_.note_people(tracked);
   }
 
-  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
-    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
+  /// @param late  what was taken from the stamp of a scan: clocks are told by stamps as drivers wrote them
+  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header, Duration late = {}) {
+    return local_time_.receive(source, bus_.now(), from_message(header.stamp) + late) - late;
   }
 
   void move(const nav_msgs::Odometry& odometry) {
@@ -131,8 +132,8 @@ class ExploreModule final : public Module {
                    {from_message(odometry.pose.pose), {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}});
   }
 
-  void see(std::size_t laser, const sensor_msgs::LaserScan& scan) {
-    surveyor_.keep(laser, in_local_time("laser " + std::to_string(laser), scan.header),
+  void see(std::size_t laser, const sensor_msgs::LaserScan& scan, Duration late) {
+    surveyor_.keep(laser, in_local_time("laser " + std::to_string(laser), scan.header, late),
                    {scan.ranges, Angle::radians(scan.angle_min), scan.angle_increment, scan.range_min, scan.range_max});
     if (laser != 0) return;
     if (const auto sight = surveyor_.sight()) person_beams_.publish(sight_message(*sight));

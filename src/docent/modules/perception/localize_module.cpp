@@ -151,7 +151,7 @@ class LocalizeModule final : public Module {
     });
     scanners_ = subscribe_scanners(bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) {
       watch_.mount(i, place.base_from_sensor);
-      on_scan(i, scan);
+      on_scan(i, scan, seconds(place.delay));
     });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
@@ -173,14 +173,16 @@ class LocalizeModule final : public Module {
   }
 
   /// Clocks of other computers are apart, drift, and are set.
-  [[nodiscard]] Time in_local_time(const std::string& source, const builtin_interfaces::Time& stamp) {
-    return local_time_.receive(source, bus_.now(), from_message(stamp));
+  /// @param late  what was taken from the stamp of a scan: clocks are told by stamps as drivers wrote them
+  [[nodiscard]] Time in_local_time(const std::string& source, const builtin_interfaces::Time& stamp,
+                                   Duration late = {}) {
+    return local_time_.receive(source, bus_.now(), from_message(stamp) + late) - late;
   }
 
-  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+  void on_scan(std::size_t laser, const sensor_msgs::LaserScan& scan, Duration late) {
     scan_silence_.hear(laser, bus_.now());
     watch_.see(
-        laser, in_local_time("laser " + std::to_string(laser), scan.header.stamp),
+        laser, in_local_time("laser " + std::to_string(laser), scan.header.stamp, late),
         {scan.ranges, Angle::radians(static_cast<double>(scan.angle_min)), static_cast<double>(scan.angle_increment),
          static_cast<double>(scan.range_min), static_cast<double>(scan.range_max)},
         bus_.now());

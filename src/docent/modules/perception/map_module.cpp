@@ -42,7 +42,7 @@ class MapModule final : public Module {
     });
     subscribe_scanners(bus_, context.config.body(), [this](std::size_t i, const auto& scan, const auto& place) {
       base_from_laser_[i] = place.base_from_sensor;
-      take(i, scan);
+      take(i, scan, seconds(place.delay));
     });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) {
       if (const auto index = body_.sonar_of(range.header.frame_id))
@@ -77,14 +77,15 @@ class MapModule final : public Module {
     bool is_placed = false;         ///< the two above are of this scan
   };
 
-  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header) {
-    return local_time_.receive(source, bus_.now(), from_message(header.stamp));
+  /// @param late  what was taken from the stamp of a scan: clocks are told by stamps as drivers wrote them
+  [[nodiscard]] Time in_local_time(const std::string& source, const std_msgs::Header& header, Duration late = {}) {
+    return local_time_.receive(source, bus_.now(), from_message(header.stamp) + late) - late;
   }
 
-  void take(std::size_t laser, const sensor_msgs::LaserScan& scan) {
+  void take(std::size_t laser, const sensor_msgs::LaserScan& scan, Duration late) {
     sights_[laser].scan = scan;
     sights_[laser].received = bus_.now();
-    sights_[laser].stamp = in_local_time("laser " + std::to_string(laser), scan.header);
+    sights_[laser].stamp = in_local_time("laser " + std::to_string(laser), scan.header, late);
     sights_[laser].is_placed = false;
   }
 
