@@ -18,6 +18,7 @@ constexpr double kMuchBetter = 0.6;   // of that, with another mount
 constexpr double kElsewhere = 4.0;    // standard deviations
 constexpr double kHysteresis = 0.6;   // of what is named: below it nothing is corrected any more
 constexpr double kKnownEnough = 1.5;  // of the limit from which on robot.yaml is contradicted: a standard deviation
+constexpr double kStaysKnown = 1.5;   // of the errors up to which a mount counts as known
 constexpr double kBeyondDoubt = 8.0;  // standard deviations
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
@@ -216,8 +217,10 @@ void MountCalibrator::judge(std::size_t scanner) {
     result.base_from_sensor.y = estimate.state.base_from_sensor.y;
   }
   if (params_.corrects && is_late) result.delay = estimate.state.delay;
-  result.is_known = has_pairs && estimate.sigma(kMountHeading) <= params_.known_heading * kDegree &&
-                    estimate.sigma_position() <= params_.known_position;
+  // A robot that speeds up and slows down with each corridor that contradicts another one is no use to anybody.
+  const double known = result.is_known ? kStaysKnown : 1.0;
+  result.is_known = has_pairs && estimate.sigma(kMountHeading) <= known * params_.known_heading * kDegree &&
+                    estimate.sigma_position() <= known * params_.known_position;
   result.is_settled = result.is_known && estimate.sigma(kMountHeading) <= params_.settled_heading * kDegree &&
                       estimate.sigma_position() <= params_.settled_position;
   result.doubt_heading = std::min(params_.doubt_heading * kDegree, estimate.sigma(kMountHeading));
