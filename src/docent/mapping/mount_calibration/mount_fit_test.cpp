@@ -73,12 +73,12 @@ TEST(MountFit, ErrorsAreAsLargeAsPiecesOfTheWayContradictOneAnother) {
   double squares = 0.0;
   constexpr int kTrials = 40;
   for (int i = 0; i < kTrials; ++i) {
-    const auto [sigma, error] = of_corridors(2.0, rng);
+    const auto [sigma, error] = of_corridors(1.0, rng);
     squares += (error / sigma) * (error / sigma);
   }
   EXPECT_LT(squares / kTrials, 2.0) << "what is told is too small";
   EXPECT_GT(squares / kTrials, 0.2) << "what is told is too large";
-  EXPECT_LT(of_corridors(0.0, rng).first, 0.5 * of_corridors(2.0, rng).first);
+  EXPECT_LT(of_corridors(0.0, rng).first, 0.8 * of_corridors(1.0, rng).first);
 }
 
 TEST(MountFit, OfNoPairsIsThePrior) {
