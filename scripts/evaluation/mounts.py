@@ -3,7 +3,7 @@ told.
 
 Part `mounts`: tours in both museums. What is wrong must be named within WAY_M of way, truly, and no marked hazard be touched; robots of which
 nothing is wrong must name nothing. The simulator screws each scanner on with up to half a degree and 7 mm of error of its own, which is in the
-figures. Part `starts`: explorations of both museums. A robot that believes robot.yaml, and one that believes the start, must fail.
+figures. Parts `right` and `logs`: see right_mounts.py. Part `starts`: explorations of both museums. A robot that believes robot.yaml, and one that believes the start, must fail.
 """
 import csv
 import json
@@ -13,11 +13,12 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from evaluation import right_mounts
 from evaluation.programs import laboratory, program_for
 from evaluation.simulations import side_by_side
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["mounts", "starts"]
+PARTS = ["mounts", "right", "logs", "starts"]
 WAY_M = 20.0  # [m] within which it is named
 HEADING = 1.0 + 0.5  # [deg] of the truth, and what the simulator adds
 PLACE = 0.03 + 0.01  # [m] likewise
@@ -58,11 +59,14 @@ START_POSES = {"bonn": [], "smithsonian": ["--start", "12,15,0"]}  # see explora
 BELIEVES_THE_START = ["--set", "explore.alignment.start_position=0", "--set", "explore.alignment.start_heading=0"]
 
 
-def scenario_of(case):
+TOURS = {"bonn": "highlights", "smithsonian": "things-that-move"}  # long ones
+
+
+def scenario_of(case, museum):
     mounts = ", ".join(f"{name}: {{x: {case['x']}, y: {case['y']}, heading: {case['heading']}}}" for name in case["scanners"])
     late = ", ".join(f"{name}: {case['late']}" for name in case["scanners"])
     return (f"build: {{mounts: {{{mounts}}}, late: {{{late}}}}}\n"
-            "events:\n  - {at: 5, request: {kind: tour, target: highlights, language: en}}\n")
+            f"events:\n  - {{at: 5, request: {{kind: tour, target: {TOURS[museum]}, language: en}}}}\n")
 
 
 def rows_of(path):
@@ -91,6 +95,9 @@ class Outcome:
         self.hazards, self.contacts = report["contacts"]["hazards"], sum(report["contacts"].values())
         self.pose_m = report["localization"]["mean_error_m"]
         self.reasons = [(float(row["time"]), row["reason"]) for row in health if row["module"] == "calibrate" and row["state"] == "degraded"]
+        told = [(float(row["time"]), row["reason"]) for row in health if row["module"] == "calibrate"]
+        known = [time for time, reason in told if time > 0 and "slow until" not in reason]
+        self.slow_m = way_at(ways, known[0]) if known else math.inf
         self.named_m = max((self.way_named(scanner, ways) for scanner in case["scanners"]), default=0.0)
         # As it is said when it has driven so far; later where it was named later.
         by_then = [reason for time, reason in self.reasons if way_at(ways, time) <= max(WAY_M, self.named_m)]
@@ -117,19 +124,23 @@ def way_at(ways, time):
     return max((way for at, way in ways if at <= time), default=0.0)
 
 
+def museums_of(options):
+    return options.museums.split(",") if options.museums else ["bonn"] if options.slice else ["bonn", "smithsonian"]
+
+
 def is_owed(case):
     return abs(case["heading"]) >= OWED_HEADING or math.hypot(case["x"], case["y"]) >= OWED_PLACE or case["late"] >= 0.06
 
 
-def run_case(simulations, case, museum, seed, minutes, more=()):
+def run_case(simulations, case, museum, seed, minutes, more=(), requests=0):
     logs = {"--health-log": "health.csv", "--claims": "claims.csv"}
     paths, report = simulations.run_logged("mounts", simulations.museums / museum, seed, minutes / 60,
-                                           ["--crowd", "busy", "--requests-per-hour", "0", *more], logs, scenario_of(case))
+                                           ["--crowd", "busy", "--requests-per-hour", requests, *more], logs, scenario_of(case, museum))
     return Outcome(case, paths, report)
 
 
 def evaluate_mounts(simulations, verdict, options):
-    museums = ["bonn"] if options.slice else ["bonn", "smithsonian"]
+    museums = museums_of(options)
     cases = [case for case in CASES if not options.slice or case["name"] in SLICE]
     minutes = options.minutes or (4.0 if options.slice else MINUTES)
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
@@ -148,6 +159,8 @@ def evaluate_mounts(simulations, verdict, options):
     exposure = f"{len(outcomes)} runs, {km:.2f} km"
     hazards = sum(outcome.hazards for outcome in outcomes)
     verdict.want("contacts with marked hazards (0)", f"{hazards} in {exposure}", hazards == 0 and km > 0)
+    idle = sum(1000 * outcome.km < WAY_M for outcome in outcomes)
+    verdict.want(f"runs that drove less than {WAY_M:g} m (0)", f"{idle} of {len(outcomes)}", idle == 0)
     owed = [(job, outcome) for job, outcome in zip(jobs, outcomes) if is_owed(job[0])]
     late = [f"{job[0]['name']} {job[1]} {job[2]}" for job, outcome in owed if outcome.named_m > WAY_M]
     verdict.want(f"named within {WAY_M:g} m", f"{len(owed) - len(late)} of {len(owed)}{': not ' + ', '.join(late) if late else ''}", not late)
@@ -184,7 +197,7 @@ def explore(simulations, museum, seed, off, more=()):
 
 
 def evaluate_starts(simulations, verdict, options):
-    museums = ["bonn"] if options.slice else ["bonn", "smithsonian"]
+    museums = museums_of(options)
     starts = STARTS[2:3] if options.slice else STARTS
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     jobs = [(museum, seed, off) for off in starts for museum in museums for seed in seeds]
@@ -215,6 +228,10 @@ def protocol(simulations, options):
     parts = [options.part] if options.part else (["mounts"] if options.slice else PARTS)
     if "mounts" in parts:
         evaluate_mounts(simulations, verdict, options)
+    if "right" in parts:
+        right_mounts.evaluate_right(simulations, verdict, options, run_case, CASES[0])
+    if "logs" in parts:
+        right_mounts.evaluate_logs(simulations, verdict)
     if "starts" in parts:
         evaluate_starts(simulations, verdict, options)
     print()

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
+
+#include "docent/base/yaml_list.h"
 
 namespace docent {
 namespace {
@@ -71,6 +75,25 @@ TEST(Yaml, WhatIsNoTextIsRefusedWithItsLine) {
   const auto file = YamlFile::parse("leaf: 1\n\0\x1a"s, "picture.png");
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().message, "picture.png:2: is no text file, and so no YAML file");
+}
+
+struct Numbers {
+  std::vector<double> values;
+  template <class V>
+  void visit(V& v) {
+    v("values", values);
+  }
+};
+
+TEST(Yaml, AListThatIsWrittenIsReadAgain) {
+  EXPECT_EQ(yaml_list({}), "[]");
+  const std::vector<double> values{1.0, -0.25, 1.0 / 3.0, 2e-9, 1e15};
+  EXPECT_EQ(yaml_list(values), "[1, -0.25, 0.333333333, 2e-09, 1e+15]");
+  const auto file = YamlFile::parse("values: " + yaml_list(values) + "\n", "f.yaml").value();
+  Numbers again;
+  ASSERT_TRUE(read_yaml(file, file.root(), again));
+  ASSERT_EQ(again.values.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(again.values[i], values[i], 1e-9 * std::abs(values[i]));
 }
 
 TEST(Yaml, FaultsStayOnOneLineWhateverTheFileSays) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 namespace docent::apps::up_command {
@@ -19,7 +20,9 @@ std::string without_digits(const std::string& text) {
   return kind;
 }
 
-bool is_well(const std::string& text) { return text == "ready" || text == "running"; }
+/// A module that is ready may say more of itself: "ready: slow until …".
+constexpr std::string_view kReadyBut = "ready: ";
+bool is_well(const std::string& text) { return text == "ready" || text == "running" || text.starts_with(kReadyBut); }
 bool is_passing(const std::string& text) { return text.starts_with("degraded") || text.starts_with("starting"); }
 
 LogLevel level_of(const std::string& text) {
@@ -70,8 +73,8 @@ void StatusDisplay::show(const std::vector<Supervisor::Status>& all, Clock::time
       !all.empty() && std::all_of(all.begin(), all.end(), [](const auto& status) { return is_well(status.text); });
   if (!has_started_ && all_well) {
     has_started_ = true;
-    for (const auto& status : all) last_[status.name] = without_digits(status.text);
     log(LogLevel::info, "up", "all " + std::to_string(all.size()) + " modules are ready");
+    log_changes(all);
   } else {
     has_started_ = has_started_ || now - start_ > kStartTime;
     log_changes(all);
@@ -98,8 +101,12 @@ void StatusDisplay::log_changes(const std::vector<Supervisor::Status>& all) {
     auto& last = last_[status.name];
     const std::string kind = without_digits(status.text);
     if (last == kind || status.text.starts_with("ended")) continue;  // the supervisor has logged its end
-    const bool was_unknown = std::exchange(last, kind).empty();
-    if (was_unknown && is_well(status.text)) continue;
+    const std::string before = std::exchange(last, kind);
+    // What a module says of itself while all is well is news once; that it says it no more is none.
+    const bool was_well = before.empty() || is_well(before);
+    const bool has_note = status.text.starts_with(kReadyBut);
+    const bool is_new = has_note && notes_.insert(status.name + kind).second;
+    if (was_well && is_well(status.text) && !is_new) continue;
     log(level_of(status.text), status.name, status.text);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 #include "docent/apps/shared/log.h"
@@ -11,7 +12,7 @@ namespace docent::apps::up_command {
 
 /// What a person sees of the supervisor. On a terminal: one live line a module below the log. Elsewhere: a line of the
 /// log whenever the state of a module changes; that modules wait for each other while they start is no news, so a
-/// healthy start is one line.
+/// healthy start is one line, with one more for each module that is ready and says something of itself.
 class StatusDisplay {
  public:
   using Clock = Supervisor::Clock;
@@ -37,7 +38,8 @@ class StatusDisplay {
   Clock::time_point start_;
   bool has_started_ = false;  ///< all were ready once, or the time for that is over
   std::size_t lines_shown_ = 0;
-  std::map<std::string, std::string> last_;
+  std::map<std::string, std::string> last_;  ///< kind of what was said last, by module
+  std::set<std::string> notes_;              ///< what modules said of themselves while they were ready
   std::vector<Supervisor::Status> shown_;
 };
 

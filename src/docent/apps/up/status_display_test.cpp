@@ -59,6 +59,20 @@ TEST(StatusDisplay, ChangesAfterTheStartAreSaidWithTheirLevel) {
   EXPECT_TRUE(screen.says(" info plan: ready")) << screen.text();
 }
 
+TEST(StatusDisplay, WhatAModuleThatIsReadySaysOfItselfIsNoFaultAndSaidOnce) {
+  Screen screen;
+  screen.show("ready: slow until it knows", "ready", 5s);
+  EXPECT_TRUE(screen.says(" info up: all 2 modules are ready")) << screen.text();
+  EXPECT_TRUE(screen.says(" info plan: ready: slow until it knows")) << screen.text();
+  screen.show("ready", "ready", 6s);
+  screen.show("ready: slow until it knows", "ready", 7s);
+  screen.show("ready", "ready", 8s);
+  EXPECT_EQ(screen.lines(), 2) << screen.text();
+  screen.show("degraded: no odometry", "ready", 9s);
+  screen.show("ready: slow until it knows", "ready", 10s);
+  EXPECT_EQ(screen.lines(), 4) << "it is well again: " << screen.text();
+}
+
 TEST(StatusDisplay, WhatAModuleWritesKeepsItsOwnTimeOrGetsOne) {
   Screen screen;
   screen.display.log_output("map", "2026-11-24 10:15:02.123 error map: no disk");

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <span>
 
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
+#include "docent/base/yaml_list.h"
 
 namespace docent::localization {
 
@@ -40,25 +40,15 @@ struct Stored {
 
 constexpr double kMostOfAnything = 1e4;  // [m], [rad] and their squares: no building is so wide
 
-std::string list_of(std::span<const double> values) {
-  std::string text = "[";
-  for (const double value : values) {
-    char number[40];
-    std::snprintf(number, sizeof number, "%s%.9g", text.size() > 1 ? ", " : "", value);
-    text += number;
-  }
-  return text + "]";
-}
-
 }  // namespace
 
 Result<void> save_localizer_checkpoint(const LocalizerCheckpoint& checkpoint, const std::filesystem::path& path) {
   const auto pose_of = [](const Pose2& pose) { return std::array{pose.x, pose.y, pose.theta.radians()}; };
   std::string text = "map_hash: \"" + checkpoint.map_hash +
                      "\"\nnanoseconds: " + std::to_string(checkpoint.time.nanoseconds) +
-                     "\nodometry: " + list_of(pose_of(checkpoint.odom_from_robot)) + "\nmodes:\n";
+                     "\nodometry: " + yaml_list(pose_of(checkpoint.odom_from_robot)) + "\nmodes:\n";
   for (const BeliefMode& mode : checkpoint.modes)
-    text += "  - {pose: " + list_of(pose_of(mode.map_from_robot)) + ", covariance: " + list_of(mode.covariance) +
+    text += "  - {pose: " + yaml_list(pose_of(mode.map_from_robot)) + ", covariance: " + yaml_list(mode.covariance) +
             ", mass: " + std::to_string(mode.mass) + "}\n";
   return write_file_atomically(path, text, Survives::process_death);
 }

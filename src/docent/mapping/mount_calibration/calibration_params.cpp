@@ -19,6 +19,8 @@ Result<void> MountFitParams::validate() const {
                              position_prior, delay_prior, way_prior, turn_prior, veer_prior, outlier})
     if (!(sigma > 0.0)) return fail("every noise, prior and outlier of a fit must be > 0");
   if (!(caution >= 1.0)) return fail("caution must be >= 1");
+  if (piece < 1) return fail("piece must be > 0");
+  if (fewest_pieces < 2) return fail("fewest_pieces must be > 1");
   if (iterations < 1) return fail("iterations must be > 0");
   return {};
 }

@@ -40,6 +40,8 @@ struct MountFitParams {
   double veer_prior = 0.03;     ///< [rad/m]: how much one wheel outruns the other
   double outlier = 3.0;         ///< sigmas, > 0: beyond it a pair counts less and less (Cauchy)
   double caution = 1.5;         ///< >= 1: errors are told so many times larger: neighbouring pairs share a sweep
+  int piece = 8;                ///< > 0, pairs: of one piece of the way, in which all may err alike, and
+  int fewest_pieces = 3;        ///< > 1: before their contradictions tell how far
   int iterations = 8;           ///< > 0
   [[nodiscard]] Result<void> validate() const;
 };

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
+#include "docent/base/yaml_list.h"
 
 namespace docent::mapping {
 namespace {
@@ -40,16 +40,6 @@ struct Stored {
     v("scanners", scanners);
   }
 };
-
-std::string list_of(std::span<const double> values) {
-  std::string text = "[";
-  for (const double value : values) {
-    char number[40];
-    std::snprintf(number, sizeof number, "%s%.9g", text.size() > 1 ? ", " : "", value);
-    text += number;
-  }
-  return text + "]";
-}
 
 std::array<double, 3> numbers_of(const Pose2& pose) { return {pose.x, pose.y, pose.theta.radians()}; }
 
@@ -111,8 +101,8 @@ Result<void> CalibrationStore::save(std::span<const NominalScanner> nominal,
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     std::array<double, kMountUnknowns> sigma{};
     for (std::size_t k = 0; k < kMountUnknowns; ++k) sigma[k] = found[i].estimate.sigma(static_cast<MountUnknown>(k));
-    text += "  - name: " + nominal[i].name + "\n    nominal: " + list_of(numbers_of(nominal[i].base_from_sensor)) +
-            "\n    found: " + list_of(numbers_of(found[i].estimate.state)) + "\n    sigma: " + list_of(sigma) +
+    text += "  - name: " + nominal[i].name + "\n    nominal: " + yaml_list(numbers_of(nominal[i].base_from_sensor)) +
+            "\n    found: " + yaml_list(numbers_of(found[i].estimate.state)) + "\n    sigma: " + yaml_list(sigma) +
             "\n    pairs: " + std::to_string(found[i].pairs) + "\n";
   }
   return write_file_atomically(path_, text, Survives::process_death);

@@ -21,6 +21,8 @@ constexpr double kMuchBetter = 0.6;      // of that, with another mount
 constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more
 constexpr double kKnownEnough = 1.5;     // of the limit from which on robot.yaml is contradicted: a standard deviation
 constexpr double kBeyondDoubt = 8.0;     // standard deviations
+constexpr double kElsewhere = 4.0;       // standard deviations
+constexpr double kStaysKnown = 1.5;      // of the errors up to which a mount counts as known
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
   char buffer[160];
@@ -31,6 +33,17 @@ std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
 /// Half of `limit` is passed beyond doubt, and the limit itself by all appearance.
 bool is_beyond(double value, double sigma, double limit, double sigmas) {
   return std::abs(value) >= limit && std::abs(value) - sigmas * sigma >= 0.5 * limit;
+}
+
+/// A mount is not where it was, whatever both estimates may be off.
+bool is_elsewhere(const MountEstimate& now, const MountEstimate& before) {
+  const auto is_beyond_doubt = [&](MountUnknown unknown, double moved) {
+    return std::abs(moved) > kElsewhere * std::hypot(now.sigma(unknown), before.sigma(unknown));
+  };
+  const Pose2& a = now.state.base_from_sensor;
+  const Pose2& b = before.state.base_from_sensor;
+  return is_beyond_doubt(kMountHeading, (a.theta - b.theta).radians()) || is_beyond_doubt(kMountX, a.x - b.x) ||
+         is_beyond_doubt(kMountY, a.y - b.y);
 }
 
 /// What of a scanner contradicts robot.yaml.
@@ -165,16 +178,19 @@ bool MountCalibrator::work() {
   return is_new;
 }
 
-void MountCalibrator::forget_old(Follower& follower, const MountState& state) const {
+void MountCalibrator::forget_old(Follower& follower, const MountEstimate& before) const {
   if (follower.pairs.size() + follower.remembered < 2 * kNewest || follower.pairs.size() < kNewest) return;
   double strange = 0.0;
   for (std::size_t i = follower.pairs.size() - kNewest; i < follower.pairs.size(); ++i)
-    strange += std::min(9.0, residual_of(follower.pairs[i], state, params_.fit));
+    strange += std::min(9.0, residual_of(follower.pairs[i], before.state, params_.fit));
   if (strange < kStrange * static_cast<double>(kNewest)) return;
   const std::vector<MotionPair> newest(follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest),
                                        follower.pairs.end());
-  const MountPrior vague = vague_prior(state.base_from_sensor, params_.fit);
-  if (fit_mount(newest, vague, params_.fit).misfit > kMuchBetter * strange / static_cast<double>(kNewest)) return;
+  const MountPrior vague = vague_prior(before.state.base_from_sensor, params_.fit);
+  const MountEstimate now = fit_mount(newest, vague, params_.fit);
+  if (now.misfit > kMuchBetter * strange / static_cast<double>(kNewest)) return;
+  // Wheels that slip on carpet are strange all day: another mount it is only if that is elsewhere beyond doubt.
+  if (!is_elsewhere(now, before)) return;
   // Somebody has knocked against it, or the robot was mended.
   follower.pairs.erase(follower.pairs.begin(), follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest));
   follower.remembered = 0;
@@ -205,7 +221,7 @@ void MountCalibrator::fit(std::size_t scanner) {
   Follower& follower = followers_[scanner];
   forget_delay(follower, results_[scanner].estimate);
   const std::size_t before = follower.pairs.size() + follower.remembered;
-  forget_old(follower, results_[scanner].estimate.state);
+  forget_old(follower, results_[scanner].estimate);
   if (follower.pairs.size() + follower.remembered < before)
     follower.prior = vague_prior(nominal_[scanner].base_from_sensor, params_.fit);
   const std::vector<MotionPair> pairs(follower.pairs.begin(), follower.pairs.end());
@@ -247,8 +263,10 @@ void MountCalibrator::judge(std::size_t scanner) {
     result.base_from_sensor.y = estimate.state.base_from_sensor.y;
   }
   if (params_.corrects && is_late) result.delay = estimate.state.delay;
-  result.is_known = has_pairs && estimate.sigma(kMountHeading) <= params_.known_heading * kDegree &&
-                    estimate.sigma_position() <= params_.known_position;
+  // A robot that speeds up and slows down with each corridor that contradicts another one is no use to anybody.
+  const double known = result.is_known ? kStaysKnown : 1.0;
+  result.is_known = has_pairs && estimate.sigma(kMountHeading) <= known * params_.known_heading * kDegree &&
+                    estimate.sigma_position() <= known * params_.known_position;
   result.is_settled = result.is_known && estimate.sigma(kMountHeading) <= params_.settled_heading * kDegree &&
                       estimate.sigma_position() <= params_.settled_position;
   result.doubt_heading = std::min(params_.doubt_heading * kDegree, estimate.sigma(kMountHeading));

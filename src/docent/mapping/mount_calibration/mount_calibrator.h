@@ -87,7 +87,7 @@ class MountCalibrator {
   }
   /// A clock was set, or a driver stamps otherwise than before: the mount is as it was, the delay is another one.
   void forget_delay(Follower& follower, const MountEstimate& estimate) const;
-  void forget_old(Follower& follower, const MountState& state) const;
+  void forget_old(Follower& follower, const MountEstimate& before) const;
   void judge(std::size_t scanner);
 
   MountCalibratorParams params_;

@@ -148,6 +148,15 @@ TEST(MountCalibrator, NoticesAScannerThatIsKnockedAskew) {
   EXPECT_NE(calibrator.finding(), "");
 }
 
+TEST(MountCalibrator, WheelsThatSlipAreNoScannerThatIsKnockedAskew) {
+  const Pose2 mount{0.1, 0.0, {}};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto calibrator = driven({.truth = mount, .odometry = {.noise = 0.03}, .way = 60.0, .seed = seed}, mount);
+    EXPECT_GT(calibrator.scanners().front().pairs, 40U) << "it has forgotten";
+    EXPECT_EQ(calibrator.finding(), "");
+  }
+}
+
 TEST(MountCalibrator, RemembersUntilTheScannersSayOtherwise) {
   const Pose2 truth{0.1, 0.0, Angle::degrees(8.0)};
   const auto first = driven({.truth = truth}, {0.1, 0.0, {}});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "docent/base/random.h"
 
 namespace docent::mapping::mount_fit_test {
@@ -47,6 +49,36 @@ TEST(MountFit, StraightWaysSayNothingOfThePlace) {
   const auto estimate = fit_mount(pairs, vague_prior({}, params), params);
   EXPECT_LT(estimate.sigma(kMountHeading), 0.02);
   EXPECT_GT(estimate.sigma_position(), 0.5 * params.position_prior);
+}
+
+/// Heading's standard deviation and error [deg], for a way of corridors in each of which all pairs err alike.
+std::pair<double, double> of_corridors(double each_off, Rng& rng) {
+  const Pose2 mount{0.2, 0.0, Angle::degrees(3.0)};
+  auto pairs = pairs_of(mount, 96, rng);
+  const int length = MountFitParams{}.piece;
+  double off = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i % static_cast<std::size_t>(length) == 0) off = each_off * rng.normal();
+    Pose2& seen = pairs[i].sensor_then_from_now;
+    const Point2 turned = Pose2{0.0, 0.0, Angle::degrees(-off)} * seen.position();
+    seen = {turned.x, turned.y, seen.theta};
+  }
+  const auto estimate = fit_mount(pairs, vague_prior({}, {}), {});
+  return {Angle::radians(estimate.sigma(kMountHeading)).degrees(),
+          (estimate.state.base_from_sensor.theta - mount.theta).degrees()};
+}
+
+TEST(MountFit, ErrorsAreAsLargeAsPiecesOfTheWayContradictOneAnother) {
+  Rng rng{11};
+  double squares = 0.0;
+  constexpr int kTrials = 40;
+  for (int i = 0; i < kTrials; ++i) {
+    const auto [sigma, error] = of_corridors(1.0, rng);
+    squares += (error / sigma) * (error / sigma);
+  }
+  EXPECT_LT(squares / kTrials, 2.0) << "what is told is too small";
+  EXPECT_GT(squares / kTrials, 0.2) << "what is told is too large";
+  EXPECT_LT(of_corridors(0.0, rng).first, 0.8 * of_corridors(1.0, rng).first);
 }
 
 TEST(MountFit, OfNoPairsIsThePrior) {

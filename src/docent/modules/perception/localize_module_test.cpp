@@ -170,6 +170,18 @@ TEST_F(LocalizeModule, ScansOfAboutOneTimeMakeOneSweepAndALateOneIsLeftOut) {
   EXPECT_EQ(beams.bearings.size(), 91U);
 }
 
+TEST_F(LocalizeModule, WhatIsKnownOfLateStampsIsNotTakenForAClockOfItsOwn) {
+  start();
+  docent_msgs::Calibration calibration;
+  constexpr double kLate = 0.2;  // [s]: more than the way of an honest message
+  calibration.mounts.push_back({"front", 0.0, 0.0, 0.0, kLate, 0.0, 0.0, true});
+  calibration.mounts.push_back({"rear", 0.0, 0.0, std::numbers::pi, kLate, 0.0, 0.0, true});
+  world->publisher(topics::kCalibration).publish(calibration);
+  run(5.0);
+  EXPECT_NEAR(to_seconds(hub.now() - from_message(belief.header.stamp)), kLate + 0.1, 0.11);
+  EXPECT_GE(to_seconds(hub.now() - from_message(belief.header.stamp)), kLate - 1e-6);
+}
+
 TEST_F(LocalizeModule, ANewProcessGoesOnWhereTheOldOneWasInTheSameMap) {
   start();
   for (int i = 0; i < 600 && !belief.localized; ++i) run(0.1);
