@@ -37,11 +37,14 @@ void BlindSectors::follow(const SweepView& view) {
   });
 }
 
-void BlindSectors::look_for(const SweepView& view, std::span<const float> expected, double elapsed) {
+void BlindSectors::look_for(const SweepView& view, std::span<const float> expected, double elapsed,
+                            double hole_of_walls) {
   const auto is_known = [&](std::size_t i) {
     return expected[i] < params_.surely_within * view.max_range;  // false for NaN
   };
   if (!is_rest_as_expected(view, expected, params_.rest, params_.noise)) return;
+  const auto widest_hole =
+      static_cast<int>(std::lround(std::max(params_.hole, hole_of_walls) / view.bearing_step));
   const double least_arc = params_.least_arc + params_.people * elapsed;
   for (std::size_t i = 0; i < view.ranges.size();) {
     if (!is_silent(view, i)) {
@@ -52,7 +55,7 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
     double arc = 0.0;
     double angle = 0.0;
     double known_angle = 0.0;
-    int hole = params_.hole + 1;
+    int hole = widest_hole + 1;
     // The widest part of the silence in which, but for small holes, something was expected.
     double widest_arc = 0.0;
     double widest_angle = 0.0;
@@ -61,7 +64,7 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
         arc += static_cast<double>(expected[i]) * view.bearing_step;
         known_angle += view.bearing_step;
         hole = 0;
-      } else if (++hole > params_.hole) {
+      } else if (++hole > widest_hole) {
         arc = angle = known_angle = 0.0;
         continue;
       }

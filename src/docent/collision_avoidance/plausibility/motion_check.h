@@ -17,7 +17,10 @@ struct MotionCheckParams {
   double proves_turn = 0.35;   ///< [rad] or after this
   double farthest = 1.0;       ///< [m] then other places are in view,
   double longest = 4.0;        ///< [s] or other people
-  double between = 0.09;       ///< [s] between comparisons
+  double between = 0.09;       ///< [s] between comparisons,
+  double between_way = 0.02;   ///< [m] and driven so far, or
+  double between_turn = 0.03;  ///< [rad] turned: who stands learns nothing more
+  double fast = 0.25;          ///< [s] between sweeps at most; slower ones do not tell that they are late
   double agrees = 0.5;         ///< of the samples as odometry has it: in order, people and all
   double surely_agrees = 0.7;  ///< likewise: nothing else need be tried
   double explains = 0.6;       ///< of the samples must follow another explanation,
@@ -44,7 +47,11 @@ class MotionCheck {
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
-  void forget() { from_.reset(); }
+  void forget() {
+    from_.reset();
+    last_ = Finding::nothing;
+    row_ = 0;
+  }
 
  private:
   struct Share {
@@ -68,6 +75,7 @@ class MotionCheck {
   std::deque<Step> trail_;
   std::vector<float> expected_;
   Time compared_{};
+  Pose2 compared_at_;  ///< odom_from_sensor
   Finding last_ = Finding::nothing;
   int row_ = 0;
   double scale_ = 1.0;

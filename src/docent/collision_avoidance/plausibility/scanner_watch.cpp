@@ -57,6 +57,10 @@ void ScannerWatch::convict(Lie lie, Time when) {
   is_proven_ = false;
 }
 
+bool ScannerWatch::is_tried(Time now) const {
+  return may_try() && now - lie_->last_sign > seconds(lie_->is_brief ? params_.stands_briefly : params_.stands);
+}
+
 void ScannerWatch::acquit() {
   lie_.reset();
   lies_ = 0;
@@ -109,28 +113,78 @@ void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
   before_ = view;
 }
 
-void ScannerWatch::judge_onset(const SweepView& view) {
+bool ScannerWatch::is_same(const RangeLaw& a, const RangeLaw& b) const {
+  return std::abs(a.offset - b.offset) <= params_.same_offset &&
+         std::abs(std::log(a.scale / b.scale)) <= params_.same_factor;
+}
+
+ScannerWatch::Verdict ScannerWatch::verdict(const RangeLaw& law, Time since, std::span<const Word> others) const {
+  Verdict found = Verdict::none;
+  for (const Word& other : others) {
+    if (other.newest < since) continue;
+    if (other.unbroken < since || (other.law && is_same(*other.law, law))) return Verdict::borne_out;
+    found = Verdict::carried_off;
+  }
+  return found;
+}
+
+void ScannerWatch::begin_anew(const SweepView& view) {
+  lies_ = 0;
+  before_ = view;
+  walls_.reset();
+  motion_.forget();
+  is_proven_ = false;
+}
+
+void ScannerWatch::judge_onset(const SweepView& view, std::span<const Word> others) {
   if (form_.is_silent) return;
-  if (!before_) {
+  const bool is_long_ago = before_ && view.stamp - before_->stamp > seconds(params_.onset);
+  if (!before_ || (is_long_ago && !lie_ && lies_ == 0)) {
+    if (is_long_ago) broken_ = view.stamp;
     before_ = view;
+    word_.unbroken = view.stamp;
     return;
   }
   const RangeLaw law = find_law(expected_, view, params_.law);
   const bool tells = law.compared >= params_.law.least;
+  if (tells) {
+    word_.newest = view.stamp;
+    word_.law.reset();
+    if (!law.is_as_expected(params_.goes_on)) word_.unbroken = view.stamp;
+  }
   if (lie_) {
+    if (lie_->by == Lie::By::sweeps) word_.law = lie_->law;
     if (lie_->by == Lie::By::sweeps && tells) follow_lie(view, law);
     return;
   }
   if (tells && is_lie(law, params_.law)) {
-    if (++lies_ >= params_.sure) {
+    if (lies_ == 0) {
+      suspected_ = broken_ = view.stamp;
+      motion_.forget();
+    }
+    word_.law = law;
+    if (++lies_ < params_.sure) return;
+    const Verdict others_say = verdict(law, suspected_, others);
+    const bool is_clear = law.as_law >= params_.alone * law.compared;
+    if (others_say == Verdict::borne_out || (others_say == Verdict::none && is_clear)) {
       lies_ = 0;
-      convict({.what = "the distances of the " + name_ + " are " + to_words(law), .law = law}, view.stamp);
+      convict({.what = "the distances of the " + name_ + " are " + to_words(law),
+               .law = law,
+               .is_brief = others_say == Verdict::none && law.offset == 0.0},
+              view.stamp);
+    } else if (others_say == Verdict::carried_off || lies_ >= params_.alone_at_most) {
+      begin_anew(view);
     }
     return;  // the sweep before stays what it is compared with
   }
   lies_ = 0;
   const bool breaks = tells && !law.is_as_expected(params_.breaks);
-  if (!breaks || view.stamp - before_->stamp > seconds(params_.onset)) before_ = view;
+  if (breaks && broken_ < before_->stamp) {
+    broken_ = view.stamp;
+    walls_.reset();
+    motion_.forget();
+  }
+  if (!breaks) before_ = view;
 }
 
 void ScannerWatch::look_for_walls(const SweepView& view) {
@@ -146,7 +200,7 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
                       view.stamp - walls_->stamp > seconds(params_.walls_longest);
   if (is_other && !is_old) {
     expect(*walls_, now_from_then, view, expected_);
-    sectors_.look_for(view, expected_, params_.walls_patience);
+    sectors_.look_for(view, expected_, params_.walls_patience, params_.walls_hole);
   }
   if (is_old) walls_ = walls_of(view);
 }
@@ -173,7 +227,7 @@ void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep,
     case MotionCheck::Finding::in_order:
       if (!lie_) {
         is_proven_ = true;
-      } else if (may_try() && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+      } else if (is_tried(view.stamp)) {
         acquit();
       }
       break;
@@ -182,12 +236,26 @@ void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep,
   }
 }
 
-void ScannerWatch::judge_by_map(const SweepView& view) {
+bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const {
+  const auto bears_out = [&](const Word& other) {
+    const bool fits = other.fits_map != Time{} && now - other.fits_map < seconds(params_.silence_map);
+    return fits || (other.by_map && is_same(*other.by_map, law));
+  };
+  if (std::any_of(others.begin(), others.end(), bears_out)) return true;
+  const bool is_settled = broken_ == Time{} || now - broken_ > seconds(params_.unsettled);
+  return is_settled && law.as_law >= params_.map_alone * law.compared;
+}
+
+void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> others) {
   const auto found = map_.compare(view);
-  if (!found || !found->is_known) return;
+  if (!found) return;
+  word_.by_map.reset();
+  if (!found->is_known) return;
   map_said_ = view.stamp;
   map_has_nothing_ = found->is_nothing_near;
-  if (found->lie) {
+  word_.by_map = found->lie;
+  if (found->in_order) word_.fits_map = view.stamp;
+  if (found->lie && is_borne_out_by_map(*found->lie, view.stamp, others)) {
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
              .by = Lie::By::map,
              .law = *found->lie},
@@ -219,29 +287,19 @@ void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   for (const BeamRun& run : form_.too_near) hide_silent(run);
 }
 
-void ScannerWatch::judge_silence_alone(const SweepView& view) {
-  if (form_.has_wrong_units) return;
-  if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
-  judge_silence(view);
-  if (!form_.is_silent) before_ = view;
-  if (const auto found = map_.compare(view); found && found->is_known) {
-    map_said_ = view.stamp;
-    map_has_nothing_ = found->is_nothing_near;
-  }
-}
-
-SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known) {
+SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known,
+                                std::span<const Word> others) {
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   base_from_sensor_ = sweep.base_from_sensor;
   newest_ = sweep.stamp;
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
-  if (!params_.compares) {
-    judge_silence_alone(view);
-  } else if (!is_motion_known) {
+  if (!is_motion_known) {
     motion_.forget();
     before_.reset();
     walls_.reset();
+    lies_ = 0;
+    broken_ = view.stamp;
   } else if (!form_.has_wrong_units) {
     if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
     judge_silence(view);
@@ -251,9 +309,9 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
       if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
       near_.add(*before_, view, expected_, form_);
     }
+    judge_onset(view, others);
     judge_motion(view, sweep, odom_from_base);
-    judge_by_map(view);
-    judge_onset(view);
+    judge_by_map(view, others);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);
@@ -266,8 +324,7 @@ std::optional<Complaint> ScannerWatch::complaint() const {
     return Complaint{0.0, "no beam of the " + name_ + " ends anywhere"};
   if (form_fault_ == FormFault::covered) return Complaint{0.0, "something covers the " + name_};
   if (lie_) {
-    const bool tries = may_try() && newest_ - lie_->last_sign > seconds(params_.stands);
-    return Complaint{tries ? params_.trial_speed : 0.0, lie_->what};
+    return Complaint{is_tried(newest_) ? params_.trial_speed : 0.0, lie_->what};
   }
   if (sectors_.is_any_sure())
     return Complaint{params_.crippled_speed, "the " + name_ + " sees nothing in a part of its field"};
