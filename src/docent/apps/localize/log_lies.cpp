@@ -15,10 +15,10 @@ using collision_avoidance::ScannerWatch;
 constexpr double kLeastRange = 0.02;  // [m]: a log does not say what its lasers are blind to
 
 collision_avoidance::SensorSweep sweep_of(const recording::LoggedScan& scan, double max_range) {
-  collision_avoidance::SensorSweep sweep{scan.time,           scan.base_from_laser,
-                                         scan.first_bearing.radians(), scan.bearing_step,
-                                         kLeastRange,         scan.max_range > 0.0 ? scan.max_range : max_range,
-                                         scan.ranges};
+  collision_avoidance::SensorSweep sweep{
+      scan.time,         scan.base_from_laser, scan.first_bearing.radians(),
+      scan.bearing_step, kLeastRange,          scan.max_range > 0.0 ? scan.max_range : max_range,
+      scan.ranges};
   for (float& range : sweep.ranges)
     if (range >= static_cast<float>(sweep.max_range)) range = std::numeric_limits<float>::infinity();
   return sweep;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::apps::localize_command::log_lies_test {
 namespace {

@@ -43,8 +43,7 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
     return expected[i] < params_.surely_within * view.max_range;  // false for NaN
   };
   if (!is_rest_as_expected(view, expected, params_.rest, params_.noise)) return;
-  const auto widest_hole =
-      static_cast<int>(std::lround(std::max(params_.hole, hole_of_walls) / view.bearing_step));
+  const auto widest_hole = static_cast<int>(std::lround(std::max(params_.hole, hole_of_walls) / view.bearing_step));
   const double least_arc = params_.least_arc + params_.people * elapsed;
   for (std::size_t i = 0; i < view.ranges.size();) {
     if (!is_silent(view, i)) {

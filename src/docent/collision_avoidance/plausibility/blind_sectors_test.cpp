@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::blind_sectors_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
 
 namespace docent::collision_avoidance {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::near_things_test {
 namespace {

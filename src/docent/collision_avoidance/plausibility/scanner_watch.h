@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/wall_shape.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
 #include "docent/collision_avoidance/plausibility/near_things.h"
-#include "docent/collision_avoidance/plausibility/range_law.h"
 #include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
 #include "docent/collision_avoidance/watches/complaint.h"
@@ -26,6 +27,7 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
+  WallShapeParams shape{};
   double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
   double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
@@ -56,7 +58,7 @@ struct ScannerWatchParams {
   double walls_least_way = 0.3;   ///< [m] at least so far: before, the same beams meet them
   double walls_hole = 0.35;       ///< [rad] between them, where somebody hid one
   double walls_patience = 0.25;   ///< [s] as if they had been seen so long ago: walls do not step aside
-  double ahead = 1.75;  ///< [rad] a scanner that looks so far from ahead does not see where it drives
+  double ahead = 1.75;            ///< [rad] a scanner that looks so far from ahead does not see where it drives
 };
 
 /// Judges every sweep of one scanner before anything else takes it for true: what no scanner in order says, what does
@@ -95,8 +97,9 @@ class ScannerWatch {
  private:
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
-    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map.
-    enum class By { sweeps, motion, map };
+    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map; by the
+    /// shape of walls.
+    enum class By { sweeps, motion, map, shape };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
@@ -114,6 +117,7 @@ class ScannerWatch {
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_shape(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
@@ -134,6 +138,7 @@ class ScannerWatch {
   ScannerWatchParams params_;
   MapCheck map_;
   MotionCheck motion_;
+  WallShape shape_;
   RepeatedSweeps repeats_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
@@ -148,9 +153,9 @@ class ScannerWatch {
   std::optional<SweepView> before_;  ///< the last sweep that was believed
   std::optional<SweepView> walls_;   ///< what lay on long straight pieces a moment ago
   std::vector<float> expected_;
-  int lies_ = 0;       ///< sweeps in succession that follow a law, or none while a lie lasts
-  Time suspected_{};   ///< the first of them
-  Time broken_{};      ///< the last sweep that was not as the one before let expect
+  int lies_ = 0;      ///< sweeps in succession that follow a law, or none while a lie lasts
+  Time suspected_{};  ///< the first of them
+  Time broken_{};     ///< the last sweep that was not as the one before let expect
   Word word_;
   std::optional<Lie> lie_;
   Time newest_{};

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::scanner_watch_test {
 namespace {

@@ -82,8 +82,7 @@ TEST(ScannerLies, ALoopFromTheStartRepeatsWhatItSaidFirst) {
     const float true_range = 0.01F * static_cast<float>(i);
     EXPECT_EQ(driver.scan(0.1 * i, true_range)[0], true_range);
   }
-  for (int i = 11; i < 35; ++i)
-    EXPECT_LT(driver.scan(0.1 * i, 0.01F * static_cast<float>(i))[0], 0.11F) << i;
+  for (int i = 11; i < 35; ++i) EXPECT_LT(driver.scan(0.1 * i, 0.01F * static_cast<float>(i))[0], 0.11F) << i;
 }
 
 TEST(ScannerLies, EndAfterAWhile) {

@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/plausibility/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
 namespace docent::collision_avoidance {
 
