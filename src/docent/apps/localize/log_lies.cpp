@@ -12,19 +12,19 @@ namespace {
 
 using collision_avoidance::ScannerWatch;
 
-constexpr double kLeastRange = 0.02;  // [m]: a log does not say what its lasers are blind to
+constexpr double kBlindWithin = 0.02;  // [m]: a log does not say what its lasers are blind to
 
-collision_avoidance::SensorSweep sweep_of(const recording::LoggedScan& scan, double max_range) {
+collision_avoidance::SensorSweep watched_sweep_of(const recording::LoggedScan& scan, double max_range) {
   collision_avoidance::SensorSweep sweep{
       scan.time,         scan.base_from_laser, scan.first_bearing.radians(),
-      scan.bearing_step, kLeastRange,          scan.max_range > 0.0 ? scan.max_range : max_range,
+      scan.bearing_step, kBlindWithin,         scan.max_range > 0.0 ? scan.max_range : max_range,
       scan.ranges};
   for (float& range : sweep.ranges)
     if (range >= static_cast<float>(sweep.max_range)) range = std::numeric_limits<float>::infinity();
   return sweep;
 }
 
-struct Fault {
+struct LogFault {
   Time first;
   Time last;
   int scans = 0;
@@ -37,15 +37,15 @@ std::vector<std::string> lies_in(const recording::LaserLog& log, const LogLiesPa
   std::array<ScannerWatch, 2> watches{ScannerWatch{"front laser", limits, nullptr},
                                       ScannerWatch{"rear laser", limits, nullptr}};
   std::array<int, 2> scans{};
-  std::array<std::map<std::string, Fault>, 2> faults;
+  std::array<std::map<std::string, LogFault>, 2> faults;
   for (const recording::LoggedScan& scan : log.scans) {
     const std::size_t laser = scan.rear ? 1 : 0;
     const std::array others{watches[1 - laser].word()};
-    (void)watches[laser].judge(sweep_of(scan, log.max_range), scan.odom_from_base, true, others);
+    (void)watches[laser].judge(watched_sweep_of(scan, log.max_range), scan.odom_from_base, true, others);
     ++scans[laser];
     const auto complaint = watches[laser].complaint();
     if (!complaint) continue;
-    Fault& fault = faults[laser].try_emplace(complaint->reason, Fault{scan.time, scan.time, 0}).first->second;
+    LogFault& fault = faults[laser].try_emplace(complaint->reason, LogFault{scan.time, scan.time, 0}).first->second;
     fault.last = scan.time;
     ++fault.scans;
   }

@@ -180,5 +180,45 @@ TEST_F(Watched, ARobotThatIsCarriedOffDoesNotBlameItsScanner) {
   }
 }
 
+/// Two scanners, one ahead and one behind.
+class TwoWatched : public Watched {
+ protected:
+  /// @param odom  what odometry says @returns what is said of any of them within `duration` [s]
+  std::string look(double duration, const Pose2& where, const Pose2& odom, const Lie& of_front = {}) {
+    std::string said;
+    for (int i = 0; i < static_cast<int>(std::lround(duration / 0.1)); ++i) {
+      time += 0.1;
+      for (std::size_t k : {0U, 1U}) {
+        const Pose2 mount{0.0, 0.0, Angle::degrees(k == 0 ? 0.0 : 180.0)};
+        SensorSweep sweep = room.sweep(time, where * mount);
+        sweep.base_from_sensor = mount;
+        if (k == 0 && of_front) of_front(sweep);
+        const std::vector<ScannerWatch::Word> others{pair[1 - k].word()};
+        (void)pair[k].judge(sweep, odom, true, others);
+        if (const auto found = pair[k].complaint(); found && said.empty()) said = found->reason;
+      }
+    }
+    return said;
+  }
+  std::vector<ScannerWatch> pair{ScannerWatch{"front laser", limits, nullptr},
+                                 ScannerWatch{"rear laser", limits, nullptr}};
+};
+
+TEST_F(TwoWatched, WhatTheOtherOneSeesTellsALieFromACarriedRobot) {
+  const Lie longer = [](SensorSweep& sweep) {
+    for (std::size_t i = 0; i < sweep.ranges.size(); ++i)
+      sweep.ranges[i] = i < 45 ? 0.7F : sweep.ranges[i] + 0.5F;  // somebody steps before it at that moment
+  };
+  room.walls.clear();
+  room.box(-3, -30, 3,
+           30);  // a hallway: 1 m from the left side to 2 m from it, all that the front one sees is twice as far
+  const Pose2 at_side{-2.0, 0.0, Angle::degrees(180)};
+  const Pose2 in_the_middle{-1.0, 0.0, Angle::degrees(180)};
+  EXPECT_EQ(look(1.0, at_side, {}), "");
+  EXPECT_EQ(look(3.0, in_the_middle, {}), "");
+  EXPECT_TRUE(pair[0].is_unproven());
+  EXPECT_EQ(look(0.4, in_the_middle, {}, longer), "the distances of the front laser are 0.5 m too long");
+}
+
 }  // namespace
 }  // namespace docent::collision_avoidance::scanner_watch_test
