@@ -46,7 +46,6 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       params_{params},
       map_{std::move(map), params.map},
       motion_{params.motion},
-      shape_{params.shape},
       repeats_{params.repeats},
       sectors_{params.sectors},
       of_map_{params.sectors},
@@ -66,7 +65,6 @@ void ScannerWatch::acquit() {
   lie_.reset();
   lies_ = 0;
   motion_.forget();
-  shape_.forget();
   is_proven_ = true;
 }
 
@@ -238,19 +236,6 @@ void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep,
   }
 }
 
-void ScannerWatch::judge_shape(const SweepView& view) {
-  const WallShape::Finding found = shape_.add(view);
-  if (found == WallShape::Finding::bent) {
-    RangeLaw law;
-    law.offset = shape_.offset();
-    convict({.what = "the distances of the " + name_ + " are " + to_words(law), .by = Lie::By::shape, .law = law},
-            view.stamp);
-  }
-  const bool is_offset = lie_ && lie_->law.offset != 0.0;
-  if (found == WallShape::Finding::straight && is_offset && view.stamp - lie_->last_sign > seconds(params_.stands))
-    acquit();
-}
-
 bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const {
   const auto bears_out = [&](const Word& other) {
     const bool fits = other.fits_map != Time{} && now - other.fits_map < seconds(params_.silence_map);
@@ -326,7 +311,6 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     }
     judge_onset(view, others);
     judge_motion(view, sweep, odom_from_base);
-    judge_shape(view);
     judge_by_map(view, others);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }

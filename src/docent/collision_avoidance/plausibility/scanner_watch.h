@@ -8,7 +8,6 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
-#include "docent/collision_avoidance/expected_sweeps/wall_shape.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
@@ -27,7 +26,6 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
-  WallShapeParams shape{};
   double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
   double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
@@ -97,9 +95,8 @@ class ScannerWatch {
  private:
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
-    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map; by the
-    /// shape of walls.
-    enum class By { sweeps, motion, map, shape };
+    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map.
+    enum class By { sweeps, motion, map };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
@@ -117,7 +114,6 @@ class ScannerWatch {
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
-  void judge_shape(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
@@ -138,7 +134,6 @@ class ScannerWatch {
   ScannerWatchParams params_;
   MapCheck map_;
   MotionCheck motion_;
-  WallShape shape_;
   RepeatedSweeps repeats_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
