@@ -48,6 +48,11 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
     if (should > params.surely_within * view.max_range) continue;
     ++law.compared;
     if (!view.met(i) || !(should > 0.0)) continue;
+    ++law.answered;
+    const double tolerance = params.noise + params.per_metre * should;
+    const bool is_between = should >= static_cast<double>(view.nearest[i]) - tolerance &&
+                            should <= static_cast<double>(view.farthest[i]) + tolerance;
+    law.answered_as_expected += is_between ? 1 : 0;
     offsets.push_back(static_cast<double>(view.ranges[i]) - should);
     scales.push_back(static_cast<double>(view.ranges[i]) / should);
   }

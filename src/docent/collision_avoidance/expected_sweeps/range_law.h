@@ -20,9 +20,11 @@ struct RangeLawParams {
 
 /// How readings depend on what was expected: reading = scale * expected + offset.
 struct RangeLaw {
-  int compared = 0;     ///< samples of which something was expected
-  int as_expected = 0;  ///< of them
-  int as_law = 0;       ///< of them, by the law
+  int compared = 0;              ///< samples of which something was expected
+  int as_expected = 0;           ///< of them
+  int as_law = 0;                ///< of them, by the law
+  int answered = 0;              ///< samples that met something, and were expected to
+  int answered_as_expected = 0;  ///< of them
   double scale = 1.0;
   double offset = 0.0;  ///< [m]
 

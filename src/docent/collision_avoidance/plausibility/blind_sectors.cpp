@@ -8,8 +8,10 @@ namespace {
 
 bool is_silent(const SweepView& view, std::size_t sample) { return view.ranges[sample] == kNoAnswer; }
 
-/// Whether at least `share` of the samples that answer do so within `noise` [m] of what is expected.
-bool is_rest_as_expected(const SweepView& view, std::span<const float> expected, double share, double noise) {
+/// Whether at least `share` of the samples that answer, and `least` of them, do so within `noise` [m] of what is
+/// expected.
+bool is_rest_as_expected(const SweepView& view, std::span<const float> expected, double share, int least,
+                         double noise) {
   int answers = 0;
   int as_expected = 0;
   for (std::size_t i = 0; i < view.ranges.size(); ++i) {
@@ -18,7 +20,7 @@ bool is_rest_as_expected(const SweepView& view, std::span<const float> expected,
     const bool is_between = expected[i] >= view.nearest[i] - noise && expected[i] <= view.farthest[i] + noise;
     as_expected += is_between ? 1 : 0;
   }
-  return as_expected >= share * answers;
+  return answers >= least && as_expected >= share * answers;
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
   const auto is_known = [&](std::size_t i) {
     return expected[i] < params_.surely_within * view.max_range;  // false for NaN
   };
-  if (!is_rest_as_expected(view, expected, params_.rest, params_.noise)) return;
+  if (!is_rest_as_expected(view, expected, params_.rest, params_.least_rest, params_.noise)) return;
   const auto widest_hole = static_cast<int>(std::lround(std::max(params_.hole, hole_of_walls) / view.bearing_step));
   const double least_arc = params_.least_arc + params_.people * elapsed;
   for (std::size_t i = 0; i < view.ranges.size();) {
@@ -66,6 +68,8 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
       } else if (++hole > widest_hole) {
         arc = angle = known_angle = 0.0;
         continue;
+      } else if (hole_of_walls > 0.0) {
+        continue;  // whoever hid the wall there may have left
       }
       angle += view.bearing_step;
       if (known_angle >= params_.least_known * angle && arc > widest_arc) {
@@ -86,6 +90,10 @@ void BlindSectors::add(const SweepView& view, BeamRun run) {
     return;
   }
   sectors_.push_back({run, 0, 0});
+}
+
+void BlindSectors::forget_newest() {
+  std::erase_if(sectors_, [&](const Sector& sector) { return sector.sweeps <= params_.sure; });
 }
 
 std::vector<BeamRun> BlindSectors::runs() const {

@@ -15,6 +15,7 @@ struct BlindSectorsParams {
   double people = 2.0;          ///< [m/s] more: those who hid nothing step aside no faster
   double hole = 0.04;           ///< [rad] in such a sector of which nothing is known
   double rest = 0.5;            ///< of the samples that answer are as expected: else the robot is elsewhere
+  int least_rest = 8;           ///< of them at least: a few may be as expected by chance
   double noise = 0.2;           ///< [m] for that
   double least_known = 0.6;     ///< of its samples at least were expected to answer
   double opened = 0.25;         ///< of a sector's samples answer: it looks again
@@ -34,6 +35,8 @@ class BlindSectors {
   /// @param hole  [rad] wider than the params', where what hid a wall is not expected itself
   void look_for(const SweepView& view, std::span<const float> expected, double elapsed, double hole = 0.0);
   void forget() { sectors_.clear(); }
+  /// Sectors of the last sweeps: the robot was carried off at that moment.
+  void forget_newest();
 
   /// [samples of the newest view) that are not to be believed when they say that nothing is there.
   [[nodiscard]] std::vector<BeamRun> runs() const;

@@ -20,7 +20,7 @@ struct MotionCheckParams {
   double between = 0.09;       ///< [s] between comparisons,
   double between_way = 0.02;   ///< [m] and driven so far, or
   double between_turn = 0.03;  ///< [rad] turned: who stands learns nothing more
-  double fast = 0.25;          ///< [s] between sweeps at most; slower ones do not tell that they are late
+  double fast = 0.21;          ///< [s] between sweeps at most; slower ones do not tell that they are late
   double agrees = 0.5;         ///< of the samples as odometry has it: in order, people and all
   double surely_agrees = 0.7;  ///< likewise: nothing else need be tried
   double explains = 0.6;       ///< of the samples must follow another explanation,

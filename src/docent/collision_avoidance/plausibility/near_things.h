@@ -11,6 +11,7 @@ namespace docent::collision_avoidance {
 
 struct NearThingsParams {
   double comes = 0.1;      ///< [m] beyond min_range: what was so near may be nearer in the next sweep
+  double fast = 0.3;       ///< [s] between two sweeps at most: else whoever was near may have left
   double step = 1.6;       ///< [m/s] with which somebody may come nearer
   double goes = 0.15;      ///< [m] beyond min_range: what was nearer and went away must have been seen again
   double beside = 0.03;    ///< [rad] to each side, of the beams that would meet it

@@ -98,10 +98,7 @@ void ScannerWatch::judge_silence(const SweepView& view) {
 }
 
 void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
-  std::vector<float> sure = expected_;  // as the law was found: without what may well give no answer
-  for (float& range : sure)
-    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
-  const int by_lie = count_by_law(sure, view, lie_->law.scale, lie_->law.offset, params_.law);
+  const int by_lie = count_by_law(surely_expected(view), view, lie_->law.scale, lie_->law.offset, params_.law);
   const double enough = params_.returns * law.compared;
   const bool is_as_before = law.as_expected >= enough && law.as_expected >= params_.clearly * by_lie;
   // A robot that was carried farther from a wall sees a factor, too: that is for the motion to find out.
@@ -128,63 +125,90 @@ ScannerWatch::Verdict ScannerWatch::verdict(const RangeLaw& law, Time since, std
   return found;
 }
 
+void ScannerWatch::forget_places() {
+  motion_.forget();
+  walls_.reset();
+  near_.forget();
+  sectors_.forget_newest();
+}
+
 void ScannerWatch::begin_anew(const SweepView& view) {
   lies_ = 0;
   before_ = view;
-  walls_.reset();
-  motion_.forget();
+  forget_places();
   is_proven_ = false;
+}
+
+void ScannerWatch::watch_for_breaks(const SweepView& view, std::span<const Word> others) {
+  breaks_ = false;
+  before_says_ = {};
+  if (before_ && !form_.is_silent) {
+    before_says_ = find_law(expected_, view, params_.law);
+    const RangeLaw& law = before_says_;
+    breaks_ = law.answered >= params_.breaks_least && law.answered_as_expected < params_.breaks * law.answered;
+    if (law.answered >= params_.breaks_least) {
+      word_.newest = view.stamp;
+      word_.law.reset();
+      if (breaks_) word_.unbroken = view.stamp;
+    }
+    if (breaks_ && word_.broken < before_->stamp) {
+      word_.broken = view.stamp;
+      forget_places();
+    }
+  }
+  for (const Word& other : others) {
+    if (other.broken <= joined_ || view.stamp - other.broken > seconds(params_.with_others)) continue;
+    joined_ = other.broken;
+    forget_places();
+  }
+}
+
+std::vector<float> ScannerWatch::surely_expected(const SweepView& view) const {
+  std::vector<float> sure = expected_;  // as a law is found: without what may well give no answer
+  for (float& range : sure)
+    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
+  return sure;
+}
+
+bool ScannerWatch::is_clear(const RangeLaw& law, const SweepView& view) const {
+  const int closely = count_by_law(surely_expected(view), view, law.scale, law.offset, params_.closely);
+  return closely >= params_.alone * law.compared && law.as_expected <= params_.alone_as_before * law.compared;
 }
 
 void ScannerWatch::judge_onset(const SweepView& view, std::span<const Word> others) {
   if (form_.is_silent) return;
   const bool is_long_ago = before_ && view.stamp - before_->stamp > seconds(params_.onset);
   if (!before_ || (is_long_ago && !lie_ && lies_ == 0)) {
-    if (is_long_ago) broken_ = view.stamp;
+    if (is_long_ago) word_.broken = view.stamp;
     before_ = view;
     word_.unbroken = view.stamp;
     return;
   }
-  const RangeLaw law = find_law(expected_, view, params_.law);
+  const RangeLaw& law = before_says_;
   const bool tells = law.compared >= params_.law.least;
-  if (tells) {
-    word_.newest = view.stamp;
-    word_.law.reset();
-    if (!law.is_as_expected(params_.goes_on)) word_.unbroken = view.stamp;
-  }
   if (lie_) {
     if (lie_->by == Lie::By::sweeps) word_.law = lie_->law;
     if (lie_->by == Lie::By::sweeps && tells) follow_lie(view, law);
     return;
   }
-  if (tells && is_lie(law, params_.law)) {
-    if (lies_ == 0) {
-      suspected_ = broken_ = view.stamp;
-      motion_.forget();
-    }
-    word_.law = law;
-    if (++lies_ < params_.sure) return;
-    const Verdict others_say = verdict(law, suspected_, others);
-    const bool is_clear = law.as_law >= params_.alone * law.compared;
-    if (others_say == Verdict::borne_out || (others_say == Verdict::none && is_clear)) {
-      lies_ = 0;
-      convict({.what = "the distances of the " + name_ + " are " + to_words(law),
-               .law = law,
-               .is_brief = others_say == Verdict::none && law.offset == 0.0},
-              view.stamp);
-    } else if (others_say == Verdict::carried_off || lies_ >= params_.alone_at_most) {
-      begin_anew(view);
-    }
-    return;  // the sweep before stays what it is compared with
+  if (!tells || !is_lie(law, params_.law)) {
+    lies_ = 0;
+    if (!breaks_) before_ = view;
+    return;  // of a lie, the sweep before stays what it is compared with
   }
-  lies_ = 0;
-  const bool breaks = tells && !law.is_as_expected(params_.breaks);
-  if (breaks && broken_ < before_->stamp) {
-    broken_ = view.stamp;
-    walls_.reset();
-    motion_.forget();
+  if (lies_ == 0) suspected_ = view.stamp;
+  word_.law = law;
+  if (++lies_ < params_.sure) return;
+  const Verdict others_say = verdict(law, suspected_, others);
+  if (others_say == Verdict::borne_out || (others_say == Verdict::none && is_clear(law, view))) {
+    lies_ = 0;
+    convict({.what = "the distances of the " + name_ + " are " + to_words(law),
+             .law = law,
+             .is_brief = others_say == Verdict::none && law.offset == 0.0},
+            view.stamp);
+  } else if (others_say == Verdict::carried_off || lies_ >= params_.alone_at_most) {
+    begin_anew(view);
   }
-  if (!breaks) before_ = view;
 }
 
 void ScannerWatch::look_for_walls(const SweepView& view) {
@@ -205,9 +229,12 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
   if (is_old) walls_ = walls_of(view);
 }
 
-void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+}
+
+void ScannerWatch::judge_motion(const SweepView& view) {
   switch (motion_.add(view, lie_ && lie_->is_late)) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
@@ -242,7 +269,7 @@ bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<
     return fits || (other.by_map && is_same(*other.by_map, law));
   };
   if (std::any_of(others.begin(), others.end(), bears_out)) return true;
-  const bool is_settled = broken_ == Time{} || now - broken_ > seconds(params_.unsettled);
+  const bool is_settled = word_.broken == Time{} || now - word_.broken > seconds(params_.unsettled);
   return is_settled && law.as_law >= params_.map_alone * law.compared;
 }
 
@@ -299,18 +326,20 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     before_.reset();
     walls_.reset();
     lies_ = 0;
-    broken_ = view.stamp;
+    word_.broken = view.stamp;
   } else if (!form_.has_wrong_units) {
     if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
     judge_silence(view);
     sectors_.follow(view);
-    if (before_ && !form_.is_silent) {
+    watch_for_breaks(view, others);
+    if (before_ && !form_.is_silent && !breaks_) {
       const double elapsed = to_seconds(view.stamp - before_->stamp);
       if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
       near_.add(*before_, view, expected_, form_);
     }
+    judge_repeats(view, sweep, odom_from_base);
     judge_onset(view, others);
-    judge_motion(view, sweep, odom_from_base);
+    judge_motion(view);
     judge_by_map(view, others);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }

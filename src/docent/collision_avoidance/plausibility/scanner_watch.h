@@ -26,15 +26,18 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
-  double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
-  double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
-  double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
-  double stands = 8.0;            ///< [s] after the last sign of a lie, before that,
-  double stands_briefly = 1.0;    ///< [s] where a few decimetres of way tell it from a robot that was carried off
-  double onset = 0.6;             ///< [s] since the sweep before, at most: then people and places have changed
-  double breaks = 0.4;            ///< of the samples at most as the sweep before has it: something has happened
-  double goes_on = 0.5;           ///< of the samples at least: nothing has happened
-  double alone = 0.9;             ///< of the samples follow a law where no other scanner bears it out
+  double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
+  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out
+  double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
+  double stands = 8.0;           ///< [s] after the last sign of a lie, before that,
+  double stands_briefly = 1.0;   ///< [s] where a few decimetres of way tell it from a robot that was carried off
+  double onset = 0.6;            ///< [s] since the sweep before, at most: then people and places have changed
+  double breaks = 0.4;        ///< of the samples that answer at most as the sweep before has it: something has happened
+  int breaks_least = 12;      ///< of them at least
+  double with_others = 0.35;  ///< [s] since another scanner saw a break: this one was carried off, too
+  double alone = 0.9;         ///< of the samples follow a law where no other scanner bears it out,
+  RangeLawParams closely{.noise = 0.06, .per_metre = 0.012};  ///< so closely, and
+  double alone_as_before = 0.15;                              ///< of them at most are as before
   int alone_at_most = 5;          ///< sweeps to find so many; then the robot was carried off
   double same_offset = 0.08;      ///< [m] between the laws of two scanners that are one
   double same_factor = 0.08;      ///< likewise, of the factor
@@ -72,6 +75,7 @@ class ScannerWatch {
   struct Word {
     Time newest{};                     ///< sweep that could be compared
     Time unbroken{};                   ///< since when each was as the one before let expect
+    Time broken{};                     ///< when the last break began
     std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
     Time fits_map{};                   ///< when it was last as the map has it
     std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
@@ -108,12 +112,19 @@ class ScannerWatch {
   void judge_onset(const SweepView& view, std::span<const Word> others);
   /// Something has happened that is no lie: the robot was carried off, or a crowd has closed in.
   void begin_anew(const SweepView& view);
+  /// Is this sweep as the one before lets expect? For this scanner and the others.
+  void watch_for_breaks(const SweepView& view, std::span<const Word> others);
+  [[nodiscard]] std::vector<float> surely_expected(const SweepView& view) const;
+  /// What was found by comparing places that may not be one.
+  void forget_places();
+  [[nodiscard]] bool is_clear(const RangeLaw& law, const SweepView& view) const;
   /// What others say to a law that this scanner seems to follow since `since`.
   enum class Verdict { none, borne_out, carried_off };
   [[nodiscard]] Verdict verdict(const RangeLaw& law, Time since, std::span<const Word> others) const;
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
-  void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
@@ -148,9 +159,12 @@ class ScannerWatch {
   std::optional<SweepView> before_;  ///< the last sweep that was believed
   std::optional<SweepView> walls_;   ///< what lay on long straight pieces a moment ago
   std::vector<float> expected_;
-  int lies_ = 0;      ///< sweeps in succession that follow a law, or none while a lie lasts
-  Time suspected_{};  ///< the first of them
-  Time broken_{};     ///< the last sweep that was not as the one before let expect
+  RangeLaw before_says_;  ///< of the newest sweep, by the sweep before
+  bool breaks_ = false;   ///< it is not as expected at all
+  Time joined_{};         ///< the last break of another scanner that counted for this one
+  int lies_ = 0;          ///< sweeps in succession that follow a law, or none while a lie lasts
+  Time suspected_{};      ///< the first of them
+                          ///< the last sweep that was not as the one before let expect
   Word word_;
   std::optional<Lie> lie_;
   Time newest_{};
