@@ -59,6 +59,13 @@ TEST(RangeLaw, WhatFollowsNoLawIsNoLie) {
   EXPECT_FALSE(is_lie(find_law(expected, view_of(sweep, {}))));  // too few
 }
 
+TEST(RangeLaw, CountsWhatAnswersApart) {
+  const RangeLaw off = law_of(1.0, 0.5, 20);
+  EXPECT_EQ(off.answered, 90);
+  EXPECT_LE(off.answered_as_expected, 3);
+  EXPECT_GE(law_of(1.0, 0.02).answered_as_expected, 88);
+}
+
 TEST(RangeLaw, SaysItInWords) {
   EXPECT_EQ(to_words(law_of(1.0, 0.5)), "0.5 m too long");
   EXPECT_EQ(to_words(law_of(1.0, -0.4)), "0.4 m too short");

@@ -77,7 +77,12 @@ void BlindSectors::look_for(const SweepView& view, std::span<const float> expect
         widest_angle = angle;
       }
     }
-    if (widest_angle >= params_.least_angle && widest_arc >= least_arc) add(view, {first, i});
+    if (widest_angle < params_.least_angle || widest_arc < least_arc) continue;
+    add(view, {first, i});
+    // A wall that was turned into the sector met a silence that was there before.
+    if (hole_of_walls > 0.0)
+      for (Sector& sector : sectors_)
+        if (sector.run.first < i && first < sector.run.end) sector.sweeps = std::max(sector.sweeps, 1);
   }
 }
 

@@ -50,6 +50,18 @@ TEST_F(Sectors, WhereAWallWasASilentSectorIsBlindUntilItAnswers) {
   EXPECT_TRUE(sectors.runs().empty());
 }
 
+TEST_F(Sectors, WhatBeganWhenItWasCarriedOffIsForgotten) {
+  for (int i = 0; i < 3; ++i) judge(look());
+  for (int i = 0; i < 2; ++i) judge(look(60, 110));
+  ASSERT_EQ(sectors.runs().size(), 1U);
+  sectors.forget_newest();
+  EXPECT_TRUE(sectors.runs().empty());
+  for (int i = 0; i < 3; ++i) judge(look());
+  for (int i = 0; i < 6; ++i) judge(look(60, 110));
+  sectors.forget_newest();
+  EXPECT_TRUE(sectors.is_any_sure());  // it has been blind for longer
+}
+
 TEST_F(Sectors, ASilenceOfOneSweepIsNotNamed) {
   for (int i = 0; i < 3; ++i) judge(look());
   judge(look(60, 110));

@@ -171,8 +171,25 @@ std::vector<float> ScannerWatch::surely_expected(const SweepView& view) const {
 }
 
 bool ScannerWatch::is_clear(const RangeLaw& law, const SweepView& view) const {
-  const int closely = count_by_law(surely_expected(view), view, law.scale, law.offset, params_.closely);
-  return closely >= params_.alone * law.compared && law.as_expected <= params_.alone_as_before * law.compared;
+  const std::vector<float> sure = surely_expected(view);
+  int compared = 0;
+  int by_law = 0;
+  int as_before = 0;
+  for (std::size_t i = 0; i < sure.size(); ++i) {
+    const auto before = static_cast<double>(sure[i]);
+    const double should = law.scale * before + law.offset;
+    if (!(should <= params_.law.surely_within * view.max_range) || std::isnan(view.ranges[i])) continue;
+    ++compared;
+    if (!view.met(i)) continue;
+    // Carried on, a place falls between two samples: half a sample aside it is this much nearer or farther.
+    const double spread = view.farthest[i] < kNoAnswer ? static_cast<double>(view.farthest[i] - view.nearest[i]) : 0.0;
+    const double tolerance = params_.closely.noise + params_.closely.per_metre * should + 0.25 * spread;
+    const auto reading = static_cast<double>(view.ranges[i]);
+    if (std::abs(reading - should) <= tolerance) ++by_law;
+    if (std::abs(reading - before) <= tolerance) ++as_before;
+  }
+  return compared >= params_.law.least && by_law >= params_.alone * compared &&
+         as_before <= params_.alone_as_before * compared;
 }
 
 void ScannerWatch::judge_onset(const SweepView& view, std::span<const Word> others) {
