@@ -78,8 +78,8 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
 bool is_lie(const RangeLaw& law, const RangeLawParams& params) {
   const bool is_off = std::abs(law.offset) >= params.least_offset || law.scale >= params.least_factor ||
                       law.scale <= 1.0 / params.least_factor;
-  return is_off && law.compared >= params.least && law.as_law >= params.least_share * law.compared &&
-         law.as_expected <= params.most_as_expected * law.compared;
+  return is_off && std::abs(law.offset) <= params.most_offset && law.compared >= params.least &&
+         law.as_law >= params.least_share * law.compared && law.as_expected <= params.most_as_expected * law.compared;
 }
 
 std::string to_words(const RangeLaw& law) {

@@ -15,6 +15,7 @@ struct RangeLawParams {
   double least_share = 0.65;      ///< of them must follow a law: the rest are people and places that come into view,
   double most_as_expected = 0.4;  ///< and at most so many be as they were expected
   double least_offset = 0.15;     ///< [m] a smaller one is noise, or a little error of the mount
+  double most_offset = 2.0;       ///< [m] a greater one is another place
   double least_factor = 1.2;  ///< likewise, or its inverse: what lies 1 m away is wrong by the least offset and more
 };
 

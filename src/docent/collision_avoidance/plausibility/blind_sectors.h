@@ -14,8 +14,8 @@ struct BlindSectorsParams {
   double least_arc = 0.5;       ///< [m] at the expected distances, and
   double people = 2.0;          ///< [m/s] more: those who hid nothing step aside no faster
   double hole = 0.04;           ///< [rad] in such a sector of which nothing is known
-  double rest = 0.5;            ///< of the samples that answer are as expected: else the robot is elsewhere
-  int least_rest = 8;           ///< of them at least: a few may be as expected by chance
+  double rest = 0.6;            ///< of the samples that answer are as expected: else the robot is elsewhere
+  int least_rest = 12;          ///< of them at least: a few may be as expected by chance
   double noise = 0.2;           ///< [m] for that
   double least_known = 0.6;     ///< of its samples at least were expected to answer
   double opened = 0.25;         ///< of a sector's samples answer: it looks again

@@ -84,6 +84,7 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
   }
   const bool is_fast = trail_.size() > 1 && view.stamp - std::prev(trail_.end(), 2)->stamp <= seconds(params_.fast);
   for (const double lag : kLags) {
+    if (is_trail_cut_ && trail_.front().stamp > from_->stamp - seconds(lag)) break;  // not known how it moved then
     if (is_fast && try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
   }
   if (finding != Finding::nothing) return finding;

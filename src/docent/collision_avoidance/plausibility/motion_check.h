@@ -23,9 +23,9 @@ struct MotionCheckParams {
   double fast = 0.21;          ///< [s] between sweeps at most; slower ones do not tell that they are late
   double agrees = 0.5;         ///< of the samples as odometry has it: in order, people and all
   double surely_agrees = 0.7;  ///< likewise: nothing else need be tried
-  double explains = 0.6;       ///< of the samples must follow another explanation,
+  double explains = 0.72;      ///< of the samples must follow another explanation,
   double better = 0.25;        ///< and so many more than odometry's
-  int sure = 3;                ///< comparisons in succession
+  int sure = 4;                ///< comparisons in succession
   double differs_way = 0.08;   ///< [m] between two explanations, else they are one
   double differs_turn = 0.06;  ///< [rad] likewise
   double late = 0.5;           ///< [s] later sweeps must look otherwise before one that was late is believed,
@@ -49,6 +49,8 @@ class MotionCheck {
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
   void forget() {
     from_.reset();
+    trail_.clear();
+    is_trail_cut_ = true;
     last_ = Finding::nothing;
     row_ = 0;
   }
@@ -73,6 +75,7 @@ class MotionCheck {
     Pose2 odom_from_sensor;
   };
   std::deque<Step> trail_;
+  bool is_trail_cut_ = false;  ///< it did not stand where the trail begins
   std::vector<float> expected_;
   Time compared_{};
   Pose2 compared_at_;  ///< odom_from_sensor
