@@ -297,9 +297,11 @@ void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> oth
   if (!found->is_known) return;
   map_said_ = view.stamp;
   map_has_nothing_ = found->is_nothing_near;
-  word_.by_map = found->lie;
+  // People all round are nearer than what the map has; nothing but a lie is behind its walls.
+  const bool is_too_long = found->lie && (found->lie->offset > 0.0 || found->lie->scale > 1.0);
+  if (is_too_long) word_.by_map = found->lie;
   if (found->in_order) word_.fits_map = view.stamp;
-  if (found->lie && is_borne_out_by_map(*found->lie, view.stamp, others)) {
+  if (is_too_long && is_borne_out_by_map(*found->lie, view.stamp, others)) {
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
              .by = Lie::By::map,
              .law = *found->lie},
