@@ -114,14 +114,14 @@ class Bench:
     """Makes runs and keeps them under a key of everything that decides them."""
 
     def __init__(self, docent, cache, run_key, museums, jobs):
-        self.docent, self.cache, self.museum, self.jobs = docent, cache / "faults", museums / MUSEUM, jobs
+        self.docent, self.cache, self.museum, self.crowd, self.jobs = docent, cache / "faults", museums / MUSEUM, CROWD, jobs
         self.key = run_key(self.museum)
         self.hashes = set()
         self.cache.mkdir(parents=True, exist_ok=True)
 
     def run(self, seed, duration, events, extra):
         """(rows of the drive log, rows of the claims) of one run."""
-        key = hashlib.sha256(json.dumps([self.key, CROWD, seed, duration, events, extra]).encode()).hexdigest()[:20]
+        key = hashlib.sha256(json.dumps([self.key, self.crowd, seed, duration, events, extra]).encode()).hexdigest()[:20]
         drive, claims, report = (self.cache / f"{key}.{what}" for what in ("drive.csv", "claims.csv", "report.json"))
         if not all(path.exists() for path in (drive, claims, report)):
             mark = f"part{os.getpid()}"
@@ -129,7 +129,7 @@ class Bench:
             scenario.write_text("\n".join(["events:", TOUR, *events]) + "\n")
             made, told, judged = (path.with_suffix(f".{mark}") for path in (drive, claims, report))
             command = [program_for(self.docent, extra), "simulate", "--museum", self.museum, "--hours", f"{duration / 3600:.8f}", "--seed", str(seed),
-                       "--crowd", CROWD, "--requests-per-hour", "40", "--scenario", scenario, "--drive-log", made, "--claims", told,
+                       "--crowd", self.crowd, "--requests-per-hour", "40", "--scenario", scenario, "--drive-log", made, "--claims", told,
                        "--report", judged, "--quiet", *extra]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
             scenario.unlink()

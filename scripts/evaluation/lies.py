@@ -3,9 +3,9 @@ an offset, a factor, old sweeps. Each on the front scanner, the rear one and bot
 the first sweep on at a place that it does not know. It must touch nothing, and name the scanner within SAID_S: of a lie that
 begins in a drive from then on; of one from the start from the first movement on; of what is too near from when it is.
 
-Runs of half an hour without a lie, in museums and crowds, count false alarms. A robot without watches must fail.
+Runs without a lie, in two museums and two crowds, and runs in which the robot is carried off every CARRIED_EVERY_S, count false
+alarms. A robot without watches must fail.
 """
-import csv
 import random
 import statistics
 
@@ -13,8 +13,10 @@ from evaluation.faults import CRIPPLED, Bench as FaultBench, count_passes, momen
 from evaluation.tables import Verdict, print_table
 
 SAID_S = 1.0  # [s]
-MINUTES = 4.0  # of an unharmed run, in which lies begin
+MINUTES = 2.0  # of an unharmed run, in which lies begin
 ALARM_MINUTES = 15.0
+CARRIED_EVERY_S = 45.0
+CARRIED_MINUTES = 4.0  # of such a run in a slice
 WATCHED_S = 12.0  # [s] after a lie has begun
 NEAR_WATCHED_S = 60.0  # [s]: until something comes near
 STARTS_S = 45.0  # [s] of a run that begins with a lie
@@ -35,7 +37,10 @@ SAYS = {  # kind: what the reason must hold beside the scanner's name
 NEAR_KINDS = {"too_near", "blind_near"}
 ALARMS = sorted({word for words in SAYS.values() for word in words} | {"too short", "covers the"})
 MUSEUMS = ["bonn", "smithsonian"]
-SLICE_KINDS = ["units", "silent"]
+CROWDS = ["busy", "packed"]
+LOOP_S = 3.0  # [s] that a loop takes: from the start, it must have been said once
+SLICE_KINDS = ["units", "silent", "sector", "offset", "scaled", "stale"]
+PARTS = [*SAYS, "alarms"]
 CRIPPLED_KINDS = ["units", "silent"]
 
 
@@ -46,10 +51,10 @@ class Bench(FaultBench):
         super().__init__(docent, cache, run_key, museums, jobs)
         self.museums, self.run_key = museums, run_key
 
-    def of(self, museum):
-        """Another museum's runs, beside this one's."""
+    def of(self, museum, crowd):
+        """Another museum's or crowd's runs, beside this one's."""
         other = FaultBench(self.docent, self.cache.parent, self.run_key, self.museums, self.jobs)
-        other.museum, other.key, other.hashes = self.museums / museum, self.run_key(self.museums / museum), self.hashes
+        other.crowd, other.museum, other.key, other.hashes = crowd, self.museums / museum, self.run_key(self.museums / museum), self.hashes
         return other
 
 
@@ -62,7 +67,8 @@ class Outcome:
 
     def __init__(self, kind, which, at, rows):
         after = [row for row in rows if row["time"] >= at]
-        self.due = self.due_of(kind, at, after)
+        # An offset of all scanners from the start looks like another place until the robot has found its own.
+        self.due = None if (kind, which, at) == ("offset", "both", 0.0) else self.due_of(kind, at, after)
         names = ["front laser", "rear laser"] if which == "both" else [f"{which} laser"]
         said = [row for row in after if any(name in row["reason"] for name in names) and any(word in row["reason"] for word in SAYS[kind])]
         self.said_s = float("inf") if not said else max(0.0, said[0]["time"] - self.due) if self.due is not None else 0.0
@@ -79,7 +85,8 @@ class Outcome:
             return near[0] if near else None
         if at > 0.0:
             return at
-        moved = [row["time"] for row in after if abs(row["speed"]) > MOVES]
+        told_once = LOOP_S if kind == "looped" else 0.0
+        moved = [row["time"] for row in after if abs(row["speed"]) > MOVES and row["time"] >= told_once]
         return moved[0] if moved else None
 
 
@@ -125,9 +132,13 @@ def protocol(bench, options):
     seeds = list(range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5))))
     kinds = SLICE_KINDS if options.slice else list(SAYS)
     places = ["front"] if options.slice else list(SENSORS)
+    verdict = Verdict()
+    if options.part == "alarms":
+        false_alarms(bench, options, seeds, verdict)
+        verdict.print()
+        return verdict
     if options.part:
         kinds = [options.part]
-    verdict = Verdict()
     unharmed = dict(zip(seeds, bench.each([lambda s=s: bench.run(s, 60.0 * MINUTES, [], [])[0] for s in seeds])))
     print(f"\n## lies, {bench.museum.name}, busy, {len(seeds)} seeds; named within {SAID_S:g} s\n")
     plan = [(kind, which, when, seed) for kind in kinds for which in places for when in ("in a drive", "at the start") for seed in seeds]
@@ -148,7 +159,7 @@ def protocol(bench, options):
                  f"{sum(o.hours for o in everything):.1f} h, {sum(o.passes for o in everything)} passes within 1 m; people bumped into it "
                  f"{sum(o.bumps for o in everything):.0f} times", not any(o.touched for o in everything))
     if not options.part:
-        false_alarms(bench, options, seeds, unharmed, verdict)
+        false_alarms(bench, options, seeds, verdict)
     verdict.want_one_configuration(bench.hashes)
     if not options.no_crippled:
         cripple(bench, seeds[:1] if options.slice else seeds[:3], verdict)
@@ -156,17 +167,23 @@ def protocol(bench, options):
     return verdict
 
 
-def false_alarms(bench, options, seeds, unharmed, verdict):
-    if options.slice:
-        runs = {bench.museum.name: list(unharmed.values())}
-    else:
-        minutes = options.minutes or ALARM_MINUTES
-        runs = {name: bench.each([lambda s=s, b=bench.of(name): b.run(s, 60.0 * minutes, [], [])[0] for s in seeds]) for name in MUSEUMS}
-    for name, some in runs.items():
+def carried_off(minutes):
+    return [f"  - {{at: {CARRIED_EVERY_S * k:.1f}, kidnap: {{}}}}" for k in range(1, int(60.0 * minutes / CARRIED_EVERY_S))]
+
+
+def false_alarms(bench, options, seeds, verdict):
+    minutes = options.minutes or (CARRIED_MINUTES if options.slice else ALARM_MINUTES)
+    carries = carried_off(minutes)
+    worlds = [(bench.museum.name, "busy", True)] if options.slice else [(m, c, carried) for m in MUSEUMS for c in CROWDS for carried in (False, True)]
+    for museum, crowd, is_carried in worlds:
+        of = bench.of(museum, crowd)
+        some = bench.each([lambda s=s, b=of: b.run(s, 60.0 * minutes, carries if is_carried else [], [])[0] for s in seeds])
         alarms = [alarm for rows in some for alarm in alarms_of(rows)]
         hours, km = sum(rows[-1]["time"] for rows in some) / 3600, sum(rows[-1]["distance"] for rows in some) / 1000
         words = ", ".join(f"{alarms.count(alarm)} x {alarm}" for alarm in sorted(set(alarms))) or "none"
-        verdict.want(f"false alarms, {name}", f"{words} in {hours:.2f} h and {km:.2f} km", km > 0 and not alarms)
+        how = f", carried off {len(carries) * len(some)} times" if is_carried else ""
+        bound = f"at most {3.0 / hours:.1f} an hour with 95 %" if not alarms else f"{len(alarms) / hours:.1f} an hour"
+        verdict.want(f"false alarms, {museum}, {crowd}{how}", f"{words} in {hours:.2f} h and {km:.2f} km: {bound}", km > 0 and not alarms)
 
 
 def cripple(bench, seeds, verdict):

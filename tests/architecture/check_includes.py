@@ -33,7 +33,8 @@ FLOORS = {
     "collision_avoidance": [
         {"body", "clocks"},
         {"obstacle_field", "dynamic_window", "watches", "virtual_measurements"},
-        {"local_planner", "plausibility"},
+        {"local_planner", "expected_sweeps"},
+        {"plausibility"},
         {"avoider"},
     ],
     "mapping": [

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
+#include <utility>
 
+#include "docent/apps/localize/log_lies.h"
 #include "docent/apps/shared/command.h"
 
 namespace docent::apps::localize_command {
@@ -40,6 +42,7 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
 ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps) {
   ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log)), {}};
   const recording::LaserLog& log = referenced.log;
+  for (std::string& lie : lies_in(log)) referenced.log.notes.push_back(std::move(lie));
   if (choice.reference.empty()) {
     referenced.reference.resize(log.scans.size());
   } else if (choice.reference == "logged") {

@@ -58,7 +58,10 @@ class InputWatches {
   /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp, which is local time
   [[nodiscard]] SensorSweep judge_sweep(std::size_t laser, SensorSweep sweep, const Pose2& odom_from_base,
                                         bool is_motion_known) {
-    return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known);
+    std::vector<ScannerWatch::Word> others;
+    for (std::size_t i = 0; i < scanners_.size(); ++i)
+      if (i != laser) others.push_back(scanners_[i].word());
+    return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known, others);
   }
   /// Where the robot believes to be, odometry's frame at `stamp`. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) {

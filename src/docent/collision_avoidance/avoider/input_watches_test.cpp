@@ -85,7 +85,11 @@ TEST(InputWatches, StandsBeforeAWallThatALyingLaserDoesNotShow) {
        [](SensorSweep& sweep) {
          for (float& range : sweep.ranges) range *= 1000.0F;
        }},
-      {"ends anywhere", [](SensorSweep& sweep) { sweep.ranges.assign(180, std::numeric_limits<float>::infinity()); }}};
+      {"ends anywhere", [](SensorSweep& sweep) { sweep.ranges.assign(180, std::numeric_limits<float>::infinity()); }},
+      {"2.0 times too long", [](SensorSweep& sweep) {
+         for (float& range : sweep.ranges) range *= 2.0F;
+         sweep.max_range *= 2.0;
+       }}};
   for (const auto& [words, lie] : lies) {
     for (const double begins : {0.0, 1.0}) {
       Rehearsal world;
@@ -98,6 +102,7 @@ TEST(InputWatches, StandsBeforeAWallThatALyingLaserDoesNotShow) {
       const std::string said = world.decision.reason;
       world.run(9.0);
       EXPECT_GT(world.least_wall, 0.0) << words << " from " << begins;
+      // What is twice as far from the start shows when it moves.
       const std::string all = said + world.decision.reason;
       EXPECT_NE(all.find("front laser"), std::string::npos) << all;
       EXPECT_NE(all.find(words), std::string::npos) << all;

@@ -183,7 +183,8 @@ TEST_F(LongBody, SlowsForWhatIsNearItsEdgeNotItsRadius) {
   for (int i = 0; i < 4; ++i) cycle(wall);
   const auto decision = avoider->decide(now);
   EXPECT_NEAR(decision.nearest_real, 0.3, 0.01);
-  EXPECT_GT(decision.speed_cap, 0.3) << decision.reason;
+  // Who has not moved yet is as slow as this: its laser is not borne out.
+  EXPECT_GE(decision.speed_cap, ScannerWatchParams{}.unproven_speed) << decision.reason;
 }
 
 TEST(Surroundings, DoesNotDriveWhereTheLaserIsBlind) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::blind_sectors_test {
 namespace {
@@ -48,6 +48,18 @@ TEST_F(Sectors, WhereAWallWasASilentSectorIsBlindUntilItAnswers) {
   EXPECT_NEAR(static_cast<double>(sectors.runs()[0].end), 110.0, 1.0);
   for (int i = 0; i < 3; ++i) judge(look());
   EXPECT_TRUE(sectors.runs().empty());
+}
+
+TEST_F(Sectors, WhatBeganWhenItWasCarriedOffIsForgotten) {
+  for (int i = 0; i < 3; ++i) judge(look());
+  for (int i = 0; i < 2; ++i) judge(look(60, 110));
+  ASSERT_EQ(sectors.runs().size(), 1U);
+  sectors.forget_newest();
+  EXPECT_TRUE(sectors.runs().empty());
+  for (int i = 0; i < 3; ++i) judge(look());
+  for (int i = 0; i < 6; ++i) judge(look(60, 110));
+  sectors.forget_newest();
+  EXPECT_TRUE(sectors.is_any_sure());  // it has been blind for longer
 }
 
 TEST_F(Sectors, ASilenceOfOneSweepIsNotNamed) {

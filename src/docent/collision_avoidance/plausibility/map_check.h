@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "docent/collision_avoidance/plausibility/range_law.h"
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 #include "docent/grid/occupancy_grid.h"
 
 namespace docent::collision_avoidance {

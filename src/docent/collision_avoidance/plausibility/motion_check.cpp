@@ -82,8 +82,10 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
     const Pose2 longer{scale * by_odometry.x, scale * by_odometry.y, by_odometry.theta};
     if (try_out(longer, Finding::too_long)) scale_ = scale;
   }
+  const bool is_fast = trail_.size() > 1 && view.stamp - std::prev(trail_.end(), 2)->stamp <= seconds(params_.fast);
   for (const double lag : kLags) {
-    if (try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
+    if (is_trail_cut_ && trail_.front().stamp > from_->stamp - seconds(lag)) break;  // not known how it moved then
+    if (is_fast && try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
   }
   if (finding != Finding::nothing) return finding;
   const bool agrees = here.compared >= params_.law.least && here.agrees >= params_.agrees && !may_be_late;
@@ -102,8 +104,12 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
   const double turn = std::abs(moved.theta.radians());
   Finding finding = Finding::nothing;
   const bool is_far = way >= params_.least_way || turn >= params_.least_turn;
-  if (is_far && view.stamp - compared_ >= seconds(params_.between)) {
+  const Pose2 since = inverse(compared_at_) * view.odom_from_sensor;
+  const bool is_other =
+      norm(since.position()) >= params_.between_way || std::abs(since.theta.radians()) >= params_.between_turn;
+  if (is_far && is_other && view.stamp - compared_ >= seconds(params_.between)) {
     compared_ = view.stamp;
+    compared_at_ = view.odom_from_sensor;
     finding = count(compare(view, may_be_late));
     if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
       finding = Finding::nothing;

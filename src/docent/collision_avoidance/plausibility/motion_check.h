@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "docent/collision_avoidance/plausibility/range_law.h"
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
 namespace docent::collision_avoidance {
 
@@ -17,12 +17,15 @@ struct MotionCheckParams {
   double proves_turn = 0.35;   ///< [rad] or after this
   double farthest = 1.0;       ///< [m] then other places are in view,
   double longest = 4.0;        ///< [s] or other people
-  double between = 0.09;       ///< [s] between comparisons
+  double between = 0.09;       ///< [s] between comparisons,
+  double between_way = 0.02;   ///< [m] and driven so far, or
+  double between_turn = 0.03;  ///< [rad] turned: who stands learns nothing more
+  double fast = 0.21;          ///< [s] between sweeps at most; slower ones do not tell that they are late
   double agrees = 0.5;         ///< of the samples as odometry has it: in order, people and all
   double surely_agrees = 0.7;  ///< likewise: nothing else need be tried
-  double explains = 0.6;       ///< of the samples must follow another explanation,
+  double explains = 0.72;      ///< of the samples must follow another explanation,
   double better = 0.25;        ///< and so many more than odometry's
-  int sure = 3;                ///< comparisons in succession
+  int sure = 4;                ///< comparisons in succession
   double differs_way = 0.08;   ///< [m] between two explanations, else they are one
   double differs_turn = 0.06;  ///< [rad] likewise
   double late = 0.5;           ///< [s] later sweeps must look otherwise before one that was late is believed,
@@ -44,7 +47,13 @@ class MotionCheck {
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
-  void forget() { from_.reset(); }
+  void forget() {
+    from_.reset();
+    trail_.clear();
+    is_trail_cut_ = true;
+    last_ = Finding::nothing;
+    row_ = 0;
+  }
 
  private:
   struct Share {
@@ -66,8 +75,10 @@ class MotionCheck {
     Pose2 odom_from_sensor;
   };
   std::deque<Step> trail_;
+  bool is_trail_cut_ = false;  ///< it did not stand where the trail begins
   std::vector<float> expected_;
   Time compared_{};
+  Pose2 compared_at_;  ///< odom_from_sensor
   Finding last_ = Finding::nothing;
   int row_ = 0;
   double scale_ = 1.0;

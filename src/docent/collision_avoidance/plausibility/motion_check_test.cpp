@@ -4,7 +4,7 @@
 
 #include <deque>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::motion_check_test {
 namespace {

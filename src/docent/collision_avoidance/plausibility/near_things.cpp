@@ -66,7 +66,11 @@ void NearThings::hold(const SweepView& view, std::span<const Point2> gone) {
 void NearThings::add(const SweepView& before, const SweepView& view, std::span<const float> expected,
                      const SweepForm& form) {
   revise(view);
-  const double elapsed = std::clamp(to_seconds(view.stamp - before.stamp), 0.0, 0.5);
+  const double elapsed = std::max(0.0, to_seconds(view.stamp - before.stamp));
+  if (elapsed > params_.fast) {
+    sure_ = places_.empty() ? 0 : sure_ + 1;
+    return;
+  }
   const double farthest = nearest(view) + params_.comes + params_.step * elapsed;
   const PointTransform now_from_before{inverse(view.odom_from_sensor) * before.odom_from_sensor};
   std::vector<Point2> gone;

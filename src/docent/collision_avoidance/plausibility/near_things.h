@@ -4,18 +4,20 @@
 #include <span>
 #include <vector>
 
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
 
 namespace docent::collision_avoidance {
 
 struct NearThingsParams {
-  double comes = 0.25;     ///< [m] beyond min_range: what was so near may be nearer in the next sweep
+  double comes = 0.1;      ///< [m] beyond min_range: what was so near may be nearer in the next sweep
+  double fast = 0.3;       ///< [s] between two sweeps at most: else whoever was near may have left
   double step = 1.6;       ///< [m/s] with which somebody may come nearer
   double goes = 0.15;      ///< [m] beyond min_range: what was nearer and went away must have been seen again
   double beside = 0.03;    ///< [rad] to each side, of the beams that would meet it
   double same = 0.05;      ///< [m] such places are one
-  int sure = 2;            ///< sweeps until it is named, or dropped
+  int sure = 2;            ///< sweeps until it is dropped
+  int named = 4;           ///< sweeps until it is named: who steps aside before nothing is soon seen again
   int several = 3;         ///< places that have gone at once
   double longest = 30.0;   ///< [s] a place is held
   double within = 1.2;     ///< [m] a scanner may be blind, whatever min_range it states
@@ -37,7 +39,7 @@ class NearThings {
   [[nodiscard]] double blind_within() const { return blind_within_; }
   /// Beams of a sweep that say "nothing" where something is held, each once.
   [[nodiscard]] std::vector<BeamRun> hidden_in(const SensorSweep& sweep, const Pose2& odom_from_sensor) const;
-  [[nodiscard]] bool is_any_sure() const { return sure_ >= params_.sure; }
+  [[nodiscard]] bool is_any_sure() const { return sure_ >= params_.named; }
   void forget() { places_.clear(); }
 
  private:

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::near_things_test {
 namespace {
@@ -20,7 +20,7 @@ class NearThingsTest : public ::testing::Test {
     for (double x = from; x <= to; x += step) look({x, 0.0, {}}, blind);
   }
   void look(const Pose2& at, double blind) {
-    time += 0.1;
+    time += period;
     sweep = room.sweep(time, at);
     for (float& range : sweep.ranges)
       if (range < blind) range = kInfinity;
@@ -39,6 +39,7 @@ class NearThingsTest : public ::testing::Test {
   std::optional<SweepView> before;
   SensorSweep sweep;
   double time = 0.0;
+  double period = 0.1;  ///< [s] between sweeps
   std::size_t hidden = 0;
 };
 
@@ -76,6 +77,15 @@ TEST_F(NearThingsTest, FindsAScannerThatIsBlindFartherThanItStates) {
   EXPECT_TRUE(things.is_any_sure());
   EXPECT_NEAR(things.blind_within(), 0.62, 0.06);
   EXPECT_GT(hidden, 10U);
+}
+
+TEST_F(NearThingsTest, BetweenSlowSweepsAnybodyMayHaveLeft) {
+  period = 1.0;
+  room.min_range = 0.5;
+  room.discs = {{{2.0, 0.0}, 0.08}};
+  drive(0.0, 1.6, 0.5);
+  EXPECT_EQ(hidden, 0U);
+  EXPECT_FALSE(things.is_any_sure());
 }
 
 TEST_F(NearThingsTest, SomebodyWhoStepsAsideIsNotHeld) {

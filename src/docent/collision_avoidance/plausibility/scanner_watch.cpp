@@ -57,6 +57,10 @@ void ScannerWatch::convict(Lie lie, Time when) {
   is_proven_ = false;
 }
 
+bool ScannerWatch::is_tried(Time now) const {
+  return may_try() && now - lie_->last_sign > seconds(lie_->is_brief ? params_.stands_briefly : params_.stands);
+}
+
 void ScannerWatch::acquit() {
   lie_.reset();
   lies_ = 0;
@@ -94,10 +98,7 @@ void ScannerWatch::judge_silence(const SweepView& view) {
 }
 
 void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
-  std::vector<float> sure = expected_;  // as the law was found: without what may well give no answer
-  for (float& range : sure)
-    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
-  const int by_lie = count_by_law(sure, view, lie_->law.scale, lie_->law.offset, params_.law);
+  const int by_lie = count_by_law(surely_expected(view), view, lie_->law.scale, lie_->law.offset, params_.law);
   const double enough = params_.returns * law.compared;
   const bool is_as_before = law.as_expected >= enough && law.as_expected >= params_.clearly * by_lie;
   // A robot that was carried farther from a wall sees a factor, too: that is for the motion to find out.
@@ -109,28 +110,122 @@ void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
   before_ = view;
 }
 
-void ScannerWatch::judge_onset(const SweepView& view) {
+bool ScannerWatch::is_same(const RangeLaw& a, const RangeLaw& b) const {
+  return std::abs(a.offset - b.offset) <= params_.same_offset &&
+         std::abs(std::log(a.scale / b.scale)) <= params_.same_factor;
+}
+
+ScannerWatch::Verdict ScannerWatch::verdict(const RangeLaw& law, Time since, std::span<const Word> others) const {
+  Verdict found = Verdict::none;
+  for (const Word& other : others) {
+    if (other.newest < since) continue;
+    if (other.unbroken < since || (other.law && is_same(*other.law, law))) return Verdict::borne_out;
+    found = Verdict::carried_off;
+  }
+  return found;
+}
+
+void ScannerWatch::forget_places() {
+  motion_.forget();
+  walls_.reset();
+  near_.forget();
+  sectors_.forget_newest();
+}
+
+void ScannerWatch::begin_anew(const SweepView& view) {
+  lies_ = 0;
+  before_ = view;
+  forget_places();
+  is_proven_ = false;
+}
+
+void ScannerWatch::watch_for_breaks(const SweepView& view, std::span<const Word> others) {
+  breaks_ = false;
+  before_says_ = {};
+  if (before_ && !form_.is_silent) {
+    before_says_ = find_law(expected_, view, params_.law);
+    const RangeLaw& law = before_says_;
+    breaks_ = law.answered >= params_.breaks_least && law.answered_as_expected < params_.breaks * law.answered;
+    if (law.answered >= params_.breaks_least) {
+      word_.newest = view.stamp;
+      word_.law.reset();
+      if (breaks_) word_.unbroken = view.stamp;
+    }
+    if (breaks_ && word_.broken < before_->stamp) {
+      word_.broken = view.stamp;
+      forget_places();
+    }
+  }
+  for (const Word& other : others) {
+    if (other.broken <= joined_ || view.stamp - other.broken > seconds(params_.with_others)) continue;
+    joined_ = other.broken;
+    forget_places();
+  }
+}
+
+std::vector<float> ScannerWatch::surely_expected(const SweepView& view) const {
+  std::vector<float> sure = expected_;  // as a law is found: without what may well give no answer
+  for (float& range : sure)
+    if (range > params_.law.surely_within * view.max_range) range = kNoReading;
+  return sure;
+}
+
+bool ScannerWatch::is_clear(const RangeLaw& law, const SweepView& view) const {
+  const std::vector<float> sure = surely_expected(view);
+  int compared = 0;
+  int by_law = 0;
+  int as_before = 0;
+  for (std::size_t i = 0; i < sure.size(); ++i) {
+    const auto before = static_cast<double>(sure[i]);
+    const double should = law.scale * before + law.offset;
+    if (!(should <= params_.law.surely_within * view.max_range) || std::isnan(view.ranges[i])) continue;
+    ++compared;
+    if (!view.met(i)) continue;
+    // Carried on, a place falls between two samples: half a sample aside it is this much nearer or farther.
+    const double spread = view.farthest[i] < kNoAnswer ? static_cast<double>(view.farthest[i] - view.nearest[i]) : 0.0;
+    const double tolerance = params_.closely.noise + params_.closely.per_metre * should + 0.25 * spread;
+    const auto reading = static_cast<double>(view.ranges[i]);
+    if (std::abs(reading - should) <= tolerance) ++by_law;
+    if (std::abs(reading - before) <= tolerance) ++as_before;
+  }
+  return compared >= params_.law.least && by_law >= params_.alone * compared &&
+         as_before <= params_.alone_as_before * compared;
+}
+
+void ScannerWatch::judge_onset(const SweepView& view, std::span<const Word> others) {
   if (form_.is_silent) return;
-  if (!before_) {
+  const bool is_long_ago = before_ && view.stamp - before_->stamp > seconds(params_.onset);
+  if (!before_ || (is_long_ago && !lie_ && lies_ == 0)) {
+    if (is_long_ago) word_.broken = view.stamp;
     before_ = view;
+    word_.unbroken = view.stamp;
     return;
   }
-  const RangeLaw law = find_law(expected_, view, params_.law);
+  const RangeLaw& law = before_says_;
   const bool tells = law.compared >= params_.law.least;
   if (lie_) {
+    if (lie_->by == Lie::By::sweeps) word_.law = lie_->law;
     if (lie_->by == Lie::By::sweeps && tells) follow_lie(view, law);
     return;
   }
-  if (tells && is_lie(law, params_.law)) {
-    if (++lies_ >= params_.sure) {
-      lies_ = 0;
-      convict({.what = "the distances of the " + name_ + " are " + to_words(law), .law = law}, view.stamp);
-    }
-    return;  // the sweep before stays what it is compared with
+  if (!tells || !is_lie(law, params_.law)) {
+    lies_ = 0;
+    if (!breaks_) before_ = view;
+    return;  // of a lie, the sweep before stays what it is compared with
   }
-  lies_ = 0;
-  const bool breaks = tells && !law.is_as_expected(params_.breaks);
-  if (!breaks || view.stamp - before_->stamp > seconds(params_.onset)) before_ = view;
+  if (lies_ == 0) suspected_ = view.stamp;
+  word_.law = law;
+  if (++lies_ < params_.sure) return;
+  const Verdict others_say = verdict(law, suspected_, others);
+  if (others_say == Verdict::borne_out || (others_say == Verdict::none && is_clear(law, view))) {
+    lies_ = 0;
+    convict({.what = "the distances of the " + name_ + " are " + to_words(law),
+             .law = law,
+             .is_brief = others_say == Verdict::none && law.offset == 0.0},
+            view.stamp);
+  } else if (others_say == Verdict::carried_off || lies_ >= params_.alone_at_most) {
+    begin_anew(view);
+  }
 }
 
 void ScannerWatch::look_for_walls(const SweepView& view) {
@@ -146,14 +241,17 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
                       view.stamp - walls_->stamp > seconds(params_.walls_longest);
   if (is_other && !is_old) {
     expect(*walls_, now_from_then, view, expected_);
-    sectors_.look_for(view, expected_, params_.walls_patience);
+    sectors_.look_for(view, expected_, params_.walls_patience, params_.walls_hole);
   }
   if (is_old) walls_ = walls_of(view);
 }
 
-void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+}
+
+void ScannerWatch::judge_motion(const SweepView& view) {
   switch (motion_.add(view, lie_ && lie_->is_late)) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
@@ -173,7 +271,7 @@ void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep,
     case MotionCheck::Finding::in_order:
       if (!lie_) {
         is_proven_ = true;
-      } else if (may_try() && view.stamp - lie_->last_sign > seconds(params_.stands)) {
+      } else if (is_tried(view.stamp)) {
         acquit();
       }
       break;
@@ -182,12 +280,28 @@ void ScannerWatch::judge_motion(const SweepView& view, const SensorSweep& sweep,
   }
 }
 
-void ScannerWatch::judge_by_map(const SweepView& view) {
+bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const {
+  const auto bears_out = [&](const Word& other) {
+    const bool fits = other.fits_map != Time{} && now - other.fits_map < seconds(params_.silence_map);
+    return fits || (other.by_map && is_same(*other.by_map, law));
+  };
+  if (std::any_of(others.begin(), others.end(), bears_out)) return true;
+  const bool is_settled = word_.broken == Time{} || now - word_.broken > seconds(params_.unsettled);
+  return is_settled && law.as_law >= params_.map_alone * law.compared;
+}
+
+void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> others) {
   const auto found = map_.compare(view);
-  if (!found || !found->is_known) return;
+  if (!found) return;
+  word_.by_map.reset();
+  if (!found->is_known) return;
   map_said_ = view.stamp;
   map_has_nothing_ = found->is_nothing_near;
-  if (found->lie) {
+  // People all round are nearer than what the map has; nothing but a lie is behind its walls.
+  const bool is_too_long = found->lie && (found->lie->offset > 0.0 || found->lie->scale > 1.0);
+  if (is_too_long) word_.by_map = found->lie;
+  if (found->in_order) word_.fits_map = view.stamp;
+  if (is_too_long && is_borne_out_by_map(*found->lie, view.stamp, others)) {
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
              .by = Lie::By::map,
              .law = *found->lie},
@@ -219,41 +333,33 @@ void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   for (const BeamRun& run : form_.too_near) hide_silent(run);
 }
 
-void ScannerWatch::judge_silence_alone(const SweepView& view) {
-  if (form_.has_wrong_units) return;
-  if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
-  judge_silence(view);
-  if (!form_.is_silent) before_ = view;
-  if (const auto found = map_.compare(view); found && found->is_known) {
-    map_said_ = view.stamp;
-    map_has_nothing_ = found->is_nothing_near;
-  }
-}
-
-SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known) {
+SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known,
+                                std::span<const Word> others) {
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   base_from_sensor_ = sweep.base_from_sensor;
   newest_ = sweep.stamp;
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
-  if (!params_.compares) {
-    judge_silence_alone(view);
-  } else if (!is_motion_known) {
+  if (!is_motion_known) {
     motion_.forget();
     before_.reset();
     walls_.reset();
+    lies_ = 0;
+    word_.broken = view.stamp;
   } else if (!form_.has_wrong_units) {
     if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
     judge_silence(view);
     sectors_.follow(view);
-    if (before_ && !form_.is_silent) {
+    watch_for_breaks(view, others);
+    if (before_ && !form_.is_silent && !breaks_) {
       const double elapsed = to_seconds(view.stamp - before_->stamp);
       if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
       near_.add(*before_, view, expected_, form_);
     }
-    judge_motion(view, sweep, odom_from_base);
-    judge_by_map(view);
-    judge_onset(view);
+    judge_repeats(view, sweep, odom_from_base);
+    judge_onset(view, others);
+    judge_motion(view);
+    judge_by_map(view, others);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);
@@ -266,8 +372,7 @@ std::optional<Complaint> ScannerWatch::complaint() const {
     return Complaint{0.0, "no beam of the " + name_ + " ends anywhere"};
   if (form_fault_ == FormFault::covered) return Complaint{0.0, "something covers the " + name_};
   if (lie_) {
-    const bool tries = may_try() && newest_ - lie_->last_sign > seconds(params_.stands);
-    return Complaint{tries ? params_.trial_speed : 0.0, lie_->what};
+    return Complaint{is_tried(newest_) ? params_.trial_speed : 0.0, lie_->what};
   }
   if (sectors_.is_any_sure())
     return Complaint{params_.crippled_speed, "the " + name_ + " sees nothing in a part of its field"};

@@ -2,15 +2,16 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
 #include "docent/collision_avoidance/plausibility/near_things.h"
-#include "docent/collision_avoidance/plausibility/range_law.h"
 #include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
 #include "docent/collision_avoidance/watches/complaint.h"
@@ -25,12 +26,23 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
-  double crippled_speed = 0.25;   ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
-  double unproven_speed = 0.25;   ///< [m/s] until motion or the map has borne a scanner out
-  double trial_speed = 0.06;      ///< [m/s] to find out whether a scanner that lied tells the truth again
-  double stands = 8.0;            ///< [s] after the last sign of a lie, before that
-  double onset = 0.6;             ///< [s] since the sweep before, at most: then people and places have changed
-  double breaks = 0.4;            ///< of the samples at most as the sweep before has it: something has happened
+  double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
+  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out
+  double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
+  double stands = 8.0;           ///< [s] after the last sign of a lie, before that,
+  double stands_briefly = 1.0;   ///< [s] where a few decimetres of way tell it from a robot that was carried off
+  double onset = 0.6;            ///< [s] since the sweep before, at most: then people and places have changed
+  double breaks = 0.4;        ///< of the samples that answer at most as the sweep before has it: something has happened
+  int breaks_least = 12;      ///< of them at least
+  double with_others = 0.35;  ///< [s] since another scanner saw a break: this one was carried off, too
+  double alone = 0.9;         ///< of the samples follow a law where no other scanner bears it out,
+  RangeLawParams closely{.noise = 0.06, .per_metre = 0.012};  ///< so closely, and
+  double alone_as_before = 0.15;                              ///< of them at most are as before
+  int alone_at_most = 5;          ///< sweeps to find so many; then the robot was carried off
+  double same_offset = 0.08;      ///< [m] between the laws of two scanners that are one
+  double same_factor = 0.08;      ///< likewise, of the factor
+  double unsettled = 10.0;        ///< [s] after a break: the place that is believed may be the one before it
+  double map_alone = 0.8;         ///< of the samples follow a law by the map where no other scanner fits it
   double returns = 0.35;          ///< of the samples at least as before the lie, or by its law: people have moved since
   double clearly = 2.0;           ///< times as many as of the other
   int sure = 2;                   ///< sweeps that say the same
@@ -45,11 +57,9 @@ struct ScannerWatchParams {
   double walls_turn = 0.8;        ///< [rad] and turned so far
   double walls_least_turn = 0.2;  ///< [rad] and at least so far, or
   double walls_least_way = 0.3;   ///< [m] at least so far: before, the same beams meet them
+  double walls_hole = 0.35;       ///< [rad] between them, where somebody hid one
   double walls_patience = 0.25;   ///< [s] as if they had been seen so long ago: walls do not step aside
-  /// What a sweep says is compared with the sweeps before, the motion and the map, beyond its form and its silence. Off
-  /// as long as one robot in twenty that is carried off blames its scanner.
-  bool compares = false;
-  double ahead = 1.75;  ///< [rad] a scanner that looks so far from ahead does not see where it drives
+  double ahead = 1.75;            ///< [rad] a scanner that looks so far from ahead does not see where it drives
 };
 
 /// Judges every sweep of one scanner before anything else takes it for true: what no scanner in order says, what does
@@ -61,16 +71,29 @@ class ScannerWatch {
   ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
                const ScannerWatchParams& params = {});
 
+  /// What a scanner says of the last moments to the others: who is carried off is so with all of them.
+  struct Word {
+    Time newest{};                     ///< sweep that could be compared
+    Time unbroken{};                   ///< since when each was as the one before let expect
+    Time broken{};                     ///< when the last break began
+    std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
+    Time fits_map{};                   ///< when it was last as the map has it
+    std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
+  };
+  [[nodiscard]] const Word& word() const { return word_; }
+
   /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp
   /// @param is_motion_known  odometry is as fresh as the sweep: else it is judged by itself alone
-  [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known = true);
+  /// @param others  what the other scanners said last
+  [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known = true,
+                                  std::span<const Word> others = {});
   /// Where the robot believes to be. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) { map_.believe(stamp, map_from_odom, mass); }
 
   /// What is wrong with the scanner; nullopt: nothing that is known of.
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Nothing has borne it out yet: neither motion nor the map.
-  [[nodiscard]] bool is_unproven() const { return params_.compares && !is_proven_; }
+  [[nodiscard]] bool is_unproven() const { return !is_proven_ || lies_ > 0; }
   [[nodiscard]] double unproven_speed() const { return params_.unproven_speed; }
 
  private:
@@ -82,13 +105,27 @@ class ScannerWatch {
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
     bool is_late = false;
-    Time last_sign{};  ///< when it showed last
+    bool is_brief = false;  ///< may be a robot that was carried off: a little way tells
+    Time last_sign{};       ///< when it showed last
   };
   void judge_form(const SensorSweep& sweep);
-  void judge_onset(const SweepView& view);
-  void judge_motion(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
-  void judge_by_map(const SweepView& view);
-  void judge_silence_alone(const SweepView& view);
+  void judge_onset(const SweepView& view, std::span<const Word> others);
+  /// Something has happened that is no lie: the robot was carried off, or a crowd has closed in.
+  void begin_anew(const SweepView& view);
+  /// Is this sweep as the one before lets expect? For this scanner and the others.
+  void watch_for_breaks(const SweepView& view, std::span<const Word> others);
+  [[nodiscard]] std::vector<float> surely_expected(const SweepView& view) const;
+  /// What was found by comparing places that may not be one.
+  void forget_places();
+  [[nodiscard]] bool is_clear(const RangeLaw& law, const SweepView& view) const;
+  /// What others say to a law that this scanner seems to follow since `since`.
+  enum class Verdict { none, borne_out, carried_off };
+  [[nodiscard]] Verdict verdict(const RangeLaw& law, Time since, std::span<const Word> others) const;
+  [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
+  [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
+  void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_motion(const SweepView& view);
+  void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
@@ -97,6 +134,8 @@ class ScannerWatch {
   void follow_lie(const SweepView& view, const RangeLaw& law);
   /// Whether motion can show that it has ended: an offset moves along.
   [[nodiscard]] bool may_try() const { return lie_->law.offset == 0.0; }
+  /// It stood long enough: very slowly it finds out.
+  [[nodiscard]] bool is_tried(Time now) const;
   void acquit();
   void hide(SensorSweep& sweep, const SweepView& view) const;
   [[nodiscard]] bool looks_ahead() const { return std::abs(base_from_sensor_.theta.radians()) < params_.ahead; }
@@ -120,7 +159,13 @@ class ScannerWatch {
   std::optional<SweepView> before_;  ///< the last sweep that was believed
   std::optional<SweepView> walls_;   ///< what lay on long straight pieces a moment ago
   std::vector<float> expected_;
-  int lies_ = 0;  ///< sweeps in succession that follow a law
+  RangeLaw before_says_;  ///< of the newest sweep, by the sweep before
+  bool breaks_ = false;   ///< it is not as expected at all
+  Time joined_{};         ///< the last break of another scanner that counted for this one
+  int lies_ = 0;          ///< sweeps in succession that follow a law, or none while a lie lasts
+  Time suspected_{};      ///< the first of them
+                          ///< the last sweep that was not as the one before let expect
+  Word word_;
   std::optional<Lie> lie_;
   Time newest_{};
   Time map_said_{};               ///< when the map said last

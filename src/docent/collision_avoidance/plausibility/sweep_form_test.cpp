@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::sweep_form_test {
 namespace {

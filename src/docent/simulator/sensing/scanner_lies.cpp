@@ -71,11 +71,14 @@ void ScannerLies::repeat_old(Time now, const ScanOnItsWay& scan) const {
 void ScannerLies::tell(Time now, const ScanOnItsWay& scan) {
   if (lie_ && lie_->duration > 0.0 && now - since_ >= seconds(lie_->duration)) lie_.reset();
   const bool is_looped = lie_ && lie_->lie == Lie::looped;
-  if (!is_looped) {  // a loop goes on with what was told before it
+  const double loop = is_looped ? lie_->amount.value_or(usual_amount(Lie::looped)) : 0.0;
+  const bool is_loop_full = is_looped && !told_.empty() && since_ - told_.front().stamp >= seconds(loop);
+  if (is_looped && !is_loop_full) since_ = now;  // from the start: what is told again must have been told
+  if (!is_loop_full) {                           // a loop goes on with what was told before it
     told_.push_back({now, scan.ranges});
     while (now - told_.front().stamp > seconds(kKept)) told_.pop_front();
   }
-  if (!lie_) return;
+  if (!lie_ || (is_looped && !is_loop_full)) return;
   const auto amount = static_cast<float>(lie_->amount.value_or(usual_amount(lie_->lie)));
   switch (lie_->lie) {
     case Lie::units:

@@ -75,6 +75,16 @@ TEST(ScannerLies, RepeatOldSweeps) {
   }
 }
 
+TEST(ScannerLies, ALoopFromTheStartRepeatsWhatItSaidFirst) {
+  Driver driver;
+  driver.lies.begin({.lie = Lie::looped, .amount = 1.0}, time_from_seconds(0.0));
+  for (int i = 0; i <= 10; ++i) {
+    const float true_range = 0.01F * static_cast<float>(i);
+    EXPECT_EQ(driver.scan(0.1 * i, true_range)[0], 0.4F + true_range);
+  }
+  for (int i = 11; i < 35; ++i) EXPECT_LT(driver.scan(0.1 * i, 0.01F * static_cast<float>(i))[0], 0.51F) << i;
+}
+
 TEST(ScannerLies, EndAfterAWhile) {
   Driver driver;
   driver.scan_with({.lie = Lie::silent, .duration = 2.0});

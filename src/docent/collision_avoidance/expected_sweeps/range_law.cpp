@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/plausibility/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
 
 #include <algorithm>
 #include <array>
@@ -48,6 +48,11 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
     if (should > params.surely_within * view.max_range) continue;
     ++law.compared;
     if (!view.met(i) || !(should > 0.0)) continue;
+    ++law.answered;
+    const double tolerance = params.noise + params.per_metre * should;
+    const bool is_between = should >= static_cast<double>(view.nearest[i]) - tolerance &&
+                            should <= static_cast<double>(view.farthest[i]) + tolerance;
+    law.answered_as_expected += is_between ? 1 : 0;
     offsets.push_back(static_cast<double>(view.ranges[i]) - should);
     scales.push_back(static_cast<double>(view.ranges[i]) / should);
   }
@@ -73,8 +78,8 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
 bool is_lie(const RangeLaw& law, const RangeLawParams& params) {
   const bool is_off = std::abs(law.offset) >= params.least_offset || law.scale >= params.least_factor ||
                       law.scale <= 1.0 / params.least_factor;
-  return is_off && law.compared >= params.least && law.as_law >= params.least_share * law.compared &&
-         law.as_expected <= params.most_as_expected * law.compared;
+  return is_off && std::abs(law.offset) <= params.most_offset && law.compared >= params.least &&
+         law.as_law >= params.least_share * law.compared && law.as_expected <= params.most_as_expected * law.compared;
 }
 
 std::string to_words(const RangeLaw& law) {

@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "docent/collision_avoidance/plausibility/room_for_test.h"
+#include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 
 namespace docent::collision_avoidance::sweep_view_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/plausibility/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/range_law.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +57,13 @@ TEST(RangeLaw, WhatFollowsNoLawIsNoLie) {
   expected.resize(10);
   sweep.ranges.assign(10, 4.0F);
   EXPECT_FALSE(is_lie(find_law(expected, view_of(sweep, {}))));  // too few
+}
+
+TEST(RangeLaw, CountsWhatAnswersApart) {
+  const RangeLaw off = law_of(1.0, 0.5, 20);
+  EXPECT_EQ(off.answered, 90);
+  EXPECT_LE(off.answered_as_expected, 3);
+  EXPECT_GE(law_of(1.0, 0.02).answered_as_expected, 88);
 }
 
 TEST(RangeLaw, SaysItInWords) {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "docent/collision_avoidance/plausibility/sweep_view.h"
+#include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
 namespace docent::collision_avoidance {
 
@@ -15,14 +15,17 @@ struct RangeLawParams {
   double least_share = 0.65;      ///< of them must follow a law: the rest are people and places that come into view,
   double most_as_expected = 0.4;  ///< and at most so many be as they were expected
   double least_offset = 0.15;     ///< [m] a smaller one is noise, or a little error of the mount
+  double most_offset = 2.0;       ///< [m] a greater one is another place
   double least_factor = 1.2;  ///< likewise, or its inverse: what lies 1 m away is wrong by the least offset and more
 };
 
 /// How readings depend on what was expected: reading = scale * expected + offset.
 struct RangeLaw {
-  int compared = 0;     ///< samples of which something was expected
-  int as_expected = 0;  ///< of them
-  int as_law = 0;       ///< of them, by the law
+  int compared = 0;              ///< samples of which something was expected
+  int as_expected = 0;           ///< of them
+  int as_law = 0;                ///< of them, by the law
+  int answered = 0;              ///< samples that met something, and were expected to
+  int answered_as_expected = 0;  ///< of them
   double scale = 1.0;
   double offset = 0.0;  ///< [m]
 
