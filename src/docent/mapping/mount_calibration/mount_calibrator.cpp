@@ -197,8 +197,8 @@ void MountCalibrator::judge(std::size_t scanner) {
   const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
     const double least = is_so ? kHysteresis * limit : limit;
     // Of few pairs with people among them the stated error is too small, too: nothing is said of what is hardly known.
-    const bool is_known_enough = sigma <= kKnownEnough * limit ||
-                                 (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit);
+    const bool is_known_enough =
+        sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit);
     return has_pairs && is_known_enough && is_beyond(value, sigma, least, params_.sigmas);
   };
   const bool is_turned = contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree,
