@@ -20,9 +20,10 @@ constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled
 constexpr double kMuchBetter = 0.6;      // of that, with another mount
 constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more
 constexpr double kKnownEnough = 1.5;     // of the limit from which on robot.yaml is contradicted: a standard deviation
-constexpr double kBeyondDoubt = 8.0;     // standard deviations
-constexpr double kElsewhere = 4.0;       // standard deviations
-constexpr double kStaysKnown = 1.5;      // of the errors up to which a mount counts as known
+constexpr double kHardlyKnown = 2.0;  // likewise, however large the error seems: people led a mount 124 degrees astray
+constexpr double kBeyondDoubt = 8.0;  // standard deviations
+constexpr double kElsewhere = 4.0;    // standard deviations
+constexpr double kStaysKnown = 1.5;   // of the errors up to which a mount counts as known
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
   char buffer[160];
@@ -242,7 +243,8 @@ void MountCalibrator::judge(std::size_t scanner) {
   const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
     const double least = is_so ? kHysteresis * limit : limit;
     // Of few pairs with people among them the stated error is too small, too: nothing is said of what is hardly known.
-    const bool is_known_enough = sigma <= kKnownEnough * limit || std::abs(value) > kBeyondDoubt * sigma;
+    const bool is_known_enough =
+        sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit);
     return has_pairs && is_known_enough && is_beyond(value, sigma, least, params_.sigmas);
   };
   const bool is_turned = contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree,
