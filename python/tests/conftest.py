@@ -24,10 +24,10 @@ def way():
     for (x, y), (to_x, to_y) in zip(corners, corners[1:]):
         heading = numpy.arctan2(to_y - y, to_x - x)
         if poses:
-            turn = (heading - poses[-1][2] + numpy.pi) % (2 * numpy.pi) - numpy.pi
+            before = poses[-1][2]
+            turn = (heading - before + numpy.pi) % (2 * numpy.pi) - numpy.pi
             for part in numpy.linspace(0, 1, max(2, int(abs(turn) / 0.09)))[1:]:
-                poses.append((x, y, poses[-1][2] + turn * part if part < 1 else heading))
-                poses[-1] = (x, y, poses[-1][2])
+                poses.append((x, y, before + turn * part))
         for part in numpy.arange(0.0, 1.0, 0.1 / numpy.hypot(to_x - x, to_y - y)):
             poses.append((x + part * (to_x - x), y + part * (to_y - y), heading))
     return numpy.array(poses)

@@ -340,7 +340,8 @@ TEST(Museum, AMisspeltFolderIsToldFromTheMuseumsBesideIt) {
   const auto nowhere = load_museum("/nowhere/hall");
   ASSERT_FALSE(nowhere);
   EXPECT_TRUE(nowhere.error().message.starts_with("/nowhere/hall: there is no such folder (museums in "));
-  EXPECT_NE(load_museum("/nowhere/bonn").error().message.find("/museums/bonn'?"), std::string::npos) << "its whole path";
+  EXPECT_NE(load_museum("/nowhere/bonn").error().message.find("/museums/bonn'?"), std::string::npos)
+      << "its whole path";
   EXPECT_NE(nowhere.error().message.find("bonn, smithsonian"), std::string::npos) << "those that come with the program";
 }
 

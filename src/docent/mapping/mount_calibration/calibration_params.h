@@ -70,10 +70,9 @@ struct MountCalibratorParams {
   double doubt_heading = 7.0;    ///< [deg], >= 0: standard deviation of a mount that nothing has confirmed
   double doubt_position = 0.07;  ///< [m], >= 0
   double unknown_speed = 0.3;    ///< [m/s], > 0: so fast at most until mounts are known
-  double mirrored_speed =
-      0.1;                    ///< [m/s], > 0: and for ever while one mirrors left and right: what is seen is elsewhere
-  double unknown_way = 60.0;  ///< [m], >= 0: but no longer than that: there are halls in which nothing is to be seen
-  bool corrects = true;       ///< drives with what it has found; false: it is named alone
+  double mirrored_speed = 0.1;   ///< [m/s], > 0: and for ever while one mirrors left and right
+  double unknown_way = 60.0;     ///< [m], >= 0: but no longer than that: there are halls in which nothing is to be seen
+  bool corrects = true;          ///< drives with what it has found; false: it is named alone
   template <class V>
   void visit(V& v) {
     v("named_heading", named_heading);

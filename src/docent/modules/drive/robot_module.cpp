@@ -33,7 +33,6 @@ class RobotModule final : public Module {
         watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
         velocity_{bus_.publisher(topics::kCommandVelocity)},
         transforms_{bus_.publisher(topics::kTransforms)},
-        odometry_{bus_.publisher(topics::kOdometry)},
         stop_{context, "robot", [this] {
                 if (stop_.holds()) command_base();
               }} {
@@ -51,7 +50,7 @@ class RobotModule final : public Module {
              {{odometry.pose.pose.position.x, odometry.pose.pose.position.y, 0.0}, odometry.pose.pose.orientation}}}});
     });
     bus_.subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [this](const tf2_msgs::TFMessage& transforms) {
-      if (const auto odometry = from_tf_.take(transforms, bus_.now())) odometry_.publish(*odometry);
+      if (const auto odometry = from_tf_.take(transforms, bus_.now())) publish_odometry(*odometry);
     });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
@@ -95,12 +94,17 @@ class RobotModule final : public Module {
     bus_.publisher(topics::kStaticTransforms).publish(std::move(mounts));
   }
 
+  void publish_odometry(const nav_msgs::Odometry& odometry) {
+    if (!odometry_) odometry_ = bus_.publisher(topics::kOdometry);
+    odometry_->publish(odometry);
+  }
+
   transport::Bus& bus_;
   RobotParams params_;
   robot::CommandWatchdog watchdog_;
   transport::Publisher<geometry_msgs::Twist> velocity_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
-  transport::Publisher<nav_msgs::Odometry> odometry_;
+  std::optional<transport::Publisher<nav_msgs::Odometry>> odometry_;  ///< once it has to make it of transforms
   TfOdometry from_tf_;
   std::optional<Time> odometry_received_;
   float battery_ = 1.0F;
