@@ -144,6 +144,26 @@ void add_picture_format(CLI::App& command, std::string& format) {
       ->capture_default_str();
 }
 
+CLI::Validator topic_prefix() {
+  return CLI::Validator{
+      [](std::string& text) {
+        constexpr std::size_t kLongest = 64;
+        bool begins = true;  // a part, of which the first character is no digit
+        bool fits = !text.empty() && text.size() <= kLongest && text.back() != '/';
+        for (const char c : text) {
+          const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+          const bool is_digit = c >= '0' && c <= '9';
+          fits = fits && (is_letter || (!begins && (is_digit || c == '/')));
+          begins = c == '/';
+        }
+        if (fits) return std::string{};
+        return "'" + text +
+               "' cannot begin the name of a topic: letters, digits and '_', which may be parted by '/', "
+               "no digit first, at most 64 in all";
+      },
+      "NAME"};
+}
+
 void add_seed(CLI::App& command, const std::string& name, std::uint64_t& seed, const std::string& meaning) {
   // Left alone, -3 becomes the seed 18446744073709551613.
   const CLI::Validator is_seed{[](std::string& text) {

@@ -18,6 +18,9 @@ namespace docent::apps {
 [[nodiscard]] Pose2 parse_pose(const std::string& option, const std::string& text);    ///< X,Y,DEG
 [[nodiscard]] std::string pose_text(const Pose2& pose);                                ///< what parse_pose reads
 
+/// For options that become the beginning of topics' names, as ROS 2 has them.
+[[nodiscard]] CLI::Validator topic_prefix();
+
 /// For options that name what a command will write: refused before the work begins when it could not be written at the
 /// end. A file needs a folder that exists, also where a link leads; a folder is made where it can be. Devices and pipes
 /// are written into.

@@ -90,5 +90,15 @@ TEST(Arguments, TwoOptionsMayNotReplaceOneFile) {
   EXPECT_EQ(fault_of({"--report", "r.json", "--read", "r.json"}), "") << "reading is no writing";
 }
 
+TEST(Arguments, ANameThatBeginsTopicsIsOneOfRos2) {
+  for (std::string name : {"rhino", "robot_2", "hall/_left/r2"}) EXPECT_EQ(topic_prefix()(name), "") << name;
+  for (std::string name : {"", "my robot", "2nd", "a//b", "/a", "a/", "a/2", "a-b", "größe", "a\nb"})
+    EXPECT_NE(topic_prefix()(name), "") << name;
+  std::string longest(64, 'a');
+  EXPECT_EQ(topic_prefix()(longest), "");
+  longest += 'a';
+  EXPECT_NE(topic_prefix()(longest), "");
+}
+
 }  // namespace
 }  // namespace docent::apps

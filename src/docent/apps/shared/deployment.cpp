@@ -35,7 +35,8 @@ void Deployment::add_options(CLI::App& command, Museum named) {
   add_cache_options(command, cache);
   command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
   command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
-  command.add_option("--name", name, "Prefix of the topics, where several robots share a domain");
+  command.add_option("--name", name, "Prefix of the topics, where several robots share a domain")
+      ->check(topic_prefix());
   command.add_option("--domain", domain, "DDS domain")
       ->check(CLI::Range(0, transport::kMaxDdsDomain))
       ->capture_default_str();
