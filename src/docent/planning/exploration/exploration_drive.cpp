@@ -66,7 +66,10 @@ void ExplorationDrive::note_held_up(Point2 robot, bool stays, Time now) {
   }
   note_failure(way_.back(), robot, stays);
   obstacles_.push_back({at, now + seconds(params_.turned_away), stays});
-  if (state_ == State::returning) ++held_up_on_way_home_;
+  if (state_ == State::returning) {
+    ++held_up_on_way_home_;
+    wants_room_ = true;
+  }
   progress_ = now;
 }
 
@@ -145,7 +148,15 @@ void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now)
 }
 
 /// From where it stands it does not get through, though it came through: it goes to where there is room, and tries
-/// anew.
+/// anew. @returns whether there is any
+bool ExplorationDrive::backs_off(const OccupancyGrid& map, Point2 robot, Time now) {
+  std::vector<Point2> way = explorer_.way_to_room(map, robot);
+  if (way.empty()) return false;
+  set_way(std::move(way));
+  backs_off_until_ = now + kBacksOff;
+  return true;
+}
+
 bool ExplorationDrive::is_backing_off(Point2 robot, Time now) {
   constexpr double kThere = 0.25;  // [m]
   if (!backs_off_until_) return false;
@@ -161,6 +172,7 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
   last_ = robot;
   note_progress(robot, waits, now, hindrance);
   if (is_backing_off(robot, now)) return;
+  if (std::exchange(wants_room_, false) && backs_off(map, robot, now)) return;
   if (explore(map, robot)) {
     state_ = State::exploring;
     stuck_.reset();
@@ -175,9 +187,7 @@ void ExplorationDrive::plan(const OccupancyGrid& map, Point2 robot, bool waits, 
     obstacles_.clear();
     explorer_.unblock();
     progress_ = now;
-    set_way(explorer_.way_to_room(map, robot));
-    if (!way_.empty()) backs_off_until_ = now + kBacksOff;
-    if (backs_off_until_) return;
+    if (backs_off(map, robot, now)) return;
     is_enclosed = way_home(map, robot).empty();
   }
   if (!is_stuck_for(is_enclosed ? params_.enclosed : params_.patience, now)) return;

@@ -92,6 +92,7 @@ class ExplorationDrive {
   void note_held_up(Point2 robot, bool stays, Time now);
   void forget_what_may_go();
   [[nodiscard]] bool explore(const OccupancyGrid& map, Point2 robot);
+  [[nodiscard]] bool backs_off(const OccupancyGrid& map, Point2 robot, Time now);
   [[nodiscard]] bool is_backing_off(Point2 robot, Time now);
   [[nodiscard]] bool is_stuck_for(double most_s, Time now);
   [[nodiscard]] std::vector<Point2> way_home(const OccupancyGrid& map, Point2 robot) const;
@@ -109,6 +110,7 @@ class ExplorationDrive {
   std::vector<Choice> choices_;
   std::optional<Point2> last_;           ///< where it was at the last plan
   std::optional<Time> backs_off_until_;  ///< it goes to where there is room
+  bool wants_room_ = false;              ///< it was held up on its way home
   double driven_ = 0.0;                  ///< [m]
   Point2 last_progress_;
   std::optional<Time> progress_;
