@@ -119,8 +119,7 @@ class LocalizeModule final : public Module {
       for (const std::string& more : {scanners_->hindrances(), notes}) reason += more.empty() ? "" : "; " + more;
       return {"degraded", "I do not know where I am: " + reason};
     }
-    if (const ModuleHealth sonars = sonars_ ? health_of_sonars(now) : ModuleHealth{}; !sonars.reason.empty())
-      return sonars;
+    if (ModuleHealth sonars = sonars_ ? health_of_sonars(now) : ModuleHealth{}; !sonars.reason.empty()) return sonars;
     return {"ready", notes};
   }
 
