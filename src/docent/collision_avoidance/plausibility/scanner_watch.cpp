@@ -262,8 +262,8 @@ void ScannerWatch::judge_motion(const SweepView& view) {
               view.stamp);
       break;
     }
-    case MotionCheck::Finding::late:  // wheels that slip look the same; sweeps that repeat themselves tell, and
-                                      // calibrate
+    case MotionCheck::Finding::late:
+      // Wheels that slip look the same: old sweeps are known by their repetition, delays by `calibrate`.
       break;
     case MotionCheck::Finding::in_order:
       if (!lie_) {

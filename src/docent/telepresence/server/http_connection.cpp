@@ -100,15 +100,17 @@ std::string HttpConnection::peer() const {
   return error ? "" : peer.address().to_string();
 }
 
+bool HttpConnection::is_proxy(const std::string& address) const {
+  return std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
+}
+
 bool HttpConnection::is_called_rightly(const HttpRequest& request) const {
-  return owner_.hosts.is_ours(view_of(request[http::field::host])) ||
-         std::find(owner_.proxies.begin(), owner_.proxies.end(), peer()) != owner_.proxies.end();
+  return owner_.hosts.is_ours(view_of(request[http::field::host])) || is_proxy(peer());
 }
 
 std::string HttpConnection::address_of(const HttpRequest& request) const {
   const std::string address = peer();
-  const bool is_proxy = std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
-  return is_proxy ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
+  return is_proxy(address) ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
 }
 
 void HttpConnection::call_api(const HttpRequest& request) {

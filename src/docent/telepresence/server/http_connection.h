@@ -87,6 +87,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   [[nodiscard]] std::string address_of(const HttpRequest& request) const;
   /// The other end is a program of this computer; a proxy says for whom it speaks.
   [[nodiscard]] std::string peer() const;
+  [[nodiscard]] bool is_proxy(const std::string& address) const;
   /// Called by a name of ours, or by a proxy of ours, which knows its own.
   [[nodiscard]] bool is_called_rightly(const HttpRequest& request) const;
   [[nodiscard]] bool is_local(const HttpRequest& request) const;
