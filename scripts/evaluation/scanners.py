@@ -22,7 +22,7 @@ KINDS = {
         "field: 360, beams: 2880, rate: 10, max_range: 30, clockwise: true, no_return: zero",
     "80 m, 190 deg, 25 Hz": "field: 190, beams: 1141, rate: 25, max_range: 80",
 }
-POSTS = "body.posts=[[0.15, 0.12, 0.01], [0.15, -0.12, 0.01], [-0.2, 0.0, 0.01]]"
+POSTS = "body.posts=[[0.15, 0.12, 0.03], [0.15, -0.12, 0.03], [-0.2, 0.0, 0.02]]"
 SLICE = ["4 m, 240 deg, writes 0", "12 m, 360 deg, clockwise, posts", "80 m, 190 deg, 25 Hz"]
 SLICE_RECORDED = ["12 m, 360 deg, clockwise, posts", "30 m, 270 deg, 40 Hz, hangs"]
 SHORT = {"4 m, 240 deg, writes 0": 4.0, "8 m, 360 deg, 90 beams, 5 Hz": 8.0}  # [m] of which one turn may tell too little

@@ -77,6 +77,7 @@ ObstacleMemory::Readings ObstacleMemory::read(Sensor& sensor) const {
   const auto end_run = [&](std::size_t end) {
     if (static_cast<double>(run) * sweep.bearing_step > params_.blind_gap) {
       for (std::size_t k = end - run; k < end; ++k) {
+        if (is_own_body(sweep, k)) continue;  // as if it were out of the field: SeenPlaces knows what lies there
         const double bearing = sweep.first_bearing + static_cast<double>(k) * sweep.bearing_step;
         sensor.blind.push_back((sweep.base_from_sensor.theta + Angle::radians(bearing)).radians());
       }
@@ -86,7 +87,7 @@ ObstacleMemory::Readings ObstacleMemory::read(Sensor& sensor) const {
   for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
     const double range = sweep.ranges[i];
     if (!is_valid(range) || range < sweep.min_range) {  // covered, or the sensor's way to say "failed"
-      ++invalid;
+      if (!is_own_body(sweep, i)) ++invalid;
       ++run;
       continue;
     }

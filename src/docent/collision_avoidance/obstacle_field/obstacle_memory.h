@@ -19,13 +19,18 @@ namespace docent::collision_avoidance {
 struct SensorSweep {
   Time stamp;
   Pose2 base_from_sensor;
-  double first_bearing = 0.0;  ///< [rad], sensor frame
-  double bearing_step = 0.0;   ///< [rad], > 0
-  double min_range = 0.0;      ///< [m]
-  double max_range = 0.0;      ///< [m]; this or more: nothing there
-  std::vector<float> ranges;   ///< [m]; NaN: no reading
-  double late = 0.0;           ///< [s] by which the stamp is later than the sweep, by what was learned of the scanner
+  double first_bearing = 0.0;    ///< [rad], sensor frame
+  double bearing_step = 0.0;     ///< [rad], > 0
+  double min_range = 0.0;        ///< [m]
+  double max_range = 0.0;        ///< [m]; this or more: nothing there
+  std::vector<float> ranges;     ///< [m]; NaN: no reading
+  double late = 0.0;             ///< [s] by which the stamp is later than the sweep, by what was learned of the scanner
+  std::vector<bool> own_body{};  ///< [beams] those that end on the robot itself, which give no reading; empty: none
 };
+
+[[nodiscard]] inline bool is_own_body(const SensorSweep& sweep, std::size_t beam) {
+  return beam < sweep.own_body.size() && sweep.own_body[beam];
+}
 
 /// One reading of a sonar, or of an infrared sensor.
 struct SonarReading {

@@ -126,6 +126,18 @@ TEST(ObstacleMemory, ScatteredInvalidReadingsAreNotBlindness) {
   EXPECT_NEAR(memory.invalid_share(0), 0.5, 0.01);
 }
 
+TEST(ObstacleMemory, ThePostsOfTheRobotAreNoBlindness) {
+  ObstacleMemory memory;
+  auto sweep = sweep_at(1.0, 3.0F);
+  put(sweep, 20, 40, std::nanf(""));
+  put(sweep, 100, 120, std::nanf(""));
+  sweep.own_body.resize(sweep.ranges.size());
+  for (std::size_t i = 20; i <= 40; ++i) sweep.own_body[i] = true;
+  memory.add_sweep(0, sweep, {});
+  EXPECT_EQ(memory.blind_directions().size(), 21U) << "the other gap is";
+  EXPECT_NEAR(memory.invalid_share(0), 21.0 / static_cast<double>(sweep.ranges.size()), 1e-9);
+}
+
 TEST(ObstacleMemory, FindsAFrozenLaserOnlyWhenTheBaseMoves) {
   ObstacleMemory memory;
   auto sweep = sweep_at(0.0, 3.0F);

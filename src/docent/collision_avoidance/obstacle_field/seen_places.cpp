@@ -21,15 +21,28 @@ double SeenPlaces::beam_along(const SensorSweep& sweep, double bearing) const {
 }
 
 bool SeenPlaces::is_in_field(const SensorSweep& sweep, double beam) const {
-  return beam >= -params_.edge && beam <= static_cast<double>(sweep.ranges.size()) - 1.0 + params_.edge;
+  const double last = static_cast<double>(sweep.ranges.size()) - 1.0;
+  if (beam < -params_.edge || beam > last + params_.edge) return false;
+  return !is_own_body(sweep, static_cast<std::size_t>(std::clamp(std::round(beam), 0.0, last)));
+}
+
+void SeenPlaces::forget_slim_posts(SensorSweep& sweep) const {
+  const auto end = sweep.own_body.end();
+  for (auto from = std::find(sweep.own_body.begin(), end, true); from != end;) {
+    const auto to = std::find(from, end, false);
+    if (static_cast<double>(to - from) * sweep.bearing_step <= params_.widest_post) std::fill(from, to, false);
+    from = std::find(to, end, true);
+  }
 }
 
 void SeenPlaces::add(std::size_t sensor, SensorSweep sweep, const Pose2& odom_from_base) {
   if (sweep.ranges.empty()) return;
+  forget_slim_posts(sweep);
   if (looks_.size() <= sensor) looks_.resize(sensor + 1);
   auto& looks = looks_[sensor];
   const bool is_as_before = !looks.empty() && looks.back().sweep.ranges.size() == sweep.ranges.size() &&
                             looks.back().sweep.first_bearing == sweep.first_bearing &&
+                            looks.back().sweep.own_body == sweep.own_body &&
                             looks.back().sweep.bearing_step == sweep.bearing_step;
   const std::size_t count = looks.size();
   if (all_round_ && count > 0) {

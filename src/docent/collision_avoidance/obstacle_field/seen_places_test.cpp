@@ -56,6 +56,33 @@ TEST(SeenPlaces, WhatLiesOutOfViewIsUnknownAndTheBodyCannotPassBetween) {
   }
 }
 
+/// A laser that looks all round past a post of the robot in `width` beams of a degree to the left.
+SensorSweep past_a_post(double time, std::size_t width) {
+  SensorSweep result = sweep(time, 360.0, 5.0F);
+  result.own_body.resize(360);
+  for (std::size_t i = 0; i < width; ++i) {
+    result.own_body[270 + i] = true;
+    result.ranges[270 + i] = std::nanf("");
+  }
+  return result;
+}
+
+TEST(SeenPlaces, BehindAPostOfTheRobotLiesWhatWasSeenBefore) {
+  const auto now = time_from_seconds(1.1);
+  SeenPlaces slim;
+  slim.add(0, past_a_post(1.0, 5), {});
+  EXPECT_TRUE(slim.unknown({}, kDisc, kMargin, now).empty()) << "a leg is wider";
+  SeenPlaces wide;
+  wide.add(0, past_a_post(1.0, 15), {});
+  const auto hidden = wide.unknown({}, kDisc, kMargin, now);
+  ASSERT_FALSE(hidden.empty());
+  for (const Point2 place : hidden) EXPECT_NEAR(direction({}, place).degrees(), 97.0, 10.0);
+  EXPECT_TRUE(has_within(hidden, {-0.3, 2.4}, 0.3)) << "far away likewise";
+  const Pose2 turned{0.0, 0.0, Angle::degrees(20.0)};
+  wide.add(0, past_a_post(1.3, 15), turned);
+  EXPECT_TRUE(wide.unknown(turned, kDisc, kMargin, time_from_seconds(1.4)).empty()) << "it was seen a moment ago";
+}
+
 TEST(SeenPlaces, AFreePlaceIsRememberedForAWhileUnlessSomethingWasMetThere) {
   const Pose2 turned{0.0, 0.0, Angle::degrees(180.0)};
   for (const float range : {2.0F, 0.3F}) {

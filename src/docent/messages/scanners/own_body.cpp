@@ -49,6 +49,7 @@ bool OwnBody::is_inside(double range, Angle bearing, double more) const {
 }
 
 void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bearing_step, double min_range) {
+  taken_out_.clear();
   if (!(radius_ > 0.0)) return;
   if (sweeps_ < kSweepsLearned) return learn(ranges, first_bearing, bearing_step, min_range);
   if (parts_.empty()) return;
@@ -62,6 +63,8 @@ void OwnBody::take_out(std::span<float> ranges, double first_bearing, double bea
       if (distance(part.in_sensor, end) > kSamePart) continue;
       part.missed = 0;
       ranges[i] = std::numeric_limits<float>::quiet_NaN();
+      taken_out_.resize(ranges.size());
+      taken_out_[i] = true;
     }
   }
   std::erase_if(parts_, [](const Part& part) { return part.missed > kForgotten; });

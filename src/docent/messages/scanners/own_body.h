@@ -32,6 +32,8 @@ class OwnBody {
   /// (not upside down). O(beams + beams on the body * points learned nearby)
   void take_out(std::span<float> ranges, double first_bearing, double bearing_step, double min_range);
 
+  /// [beams] those of the newest sweep that ended on the body; empty: none did.
+  [[nodiscard]] const std::vector<bool>& taken_out() const { return taken_out_; }
   /// Where it sees the robot, [deg] in the robot's frame from the front: "-12..-8, 172..176"; empty: nowhere.
   [[nodiscard]] std::string where() const;
   /// It sees so much inside the body that this is no part of the robot: it is covered, or body.radius is wrong.
@@ -56,6 +58,7 @@ class OwnBody {
   std::size_t sweeps_ = 0;
   std::vector<Part> directions_;  ///< while it learns
   std::vector<Part> parts_;       ///< of the robot, by rising bearing
+  std::vector<bool> taken_out_;
   bool is_too_much_ = false;
 };
 

@@ -33,7 +33,11 @@ TEST(OwnBody, LearnsAPostAndTakesItOut) {
   for (int sweep = 0; sweep < 50; ++sweep) {
     auto ranges = sweep_of(rng, 1.0 + 0.05 * sweep);
     body.take_out(ranges, -std::numbers::pi, kDegree, 0.05);
-    for (std::size_t beam = 0; beam < 360; ++beam) EXPECT_EQ(std::isnan(ranges[beam]), beam >= 90 && beam < 96) << beam;
+    ASSERT_EQ(body.taken_out().size(), 360U);
+    for (std::size_t beam = 0; beam < 360; ++beam) {
+      EXPECT_EQ(std::isnan(ranges[beam]), beam >= 90 && beam < 96) << beam;
+      EXPECT_EQ(body.taken_out()[beam], beam >= 90 && beam < 96) << beam;
+    }
   }
   EXPECT_FALSE(body.is_too_much());
   EXPECT_FALSE(body.where().empty());

@@ -41,6 +41,9 @@ class ScanReader {
   /// The sweep is good until the next call. O(beams)
   const DriverScan& read(const DriverScan& written);
 
+  /// [beams] those of the newest sweep that ended on the robot itself; empty: none did.
+  [[nodiscard]] const std::vector<bool>& own_body() const { return body_.taken_out(); }
+
   /// What a technician should know of this scanner, a clause each; empty: nothing.
   [[nodiscard]] std::vector<std::string> notes() const;
   /// What of its sight keeps a robot from finding its place, a clause; empty: nothing. It comes and goes.

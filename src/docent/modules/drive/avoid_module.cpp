@@ -33,7 +33,8 @@ Result<collision_avoidance::BaseLimits> limits_of(const robot::RobotBody& body) 
 }
 
 /// With the stamp of its driver: `avoid` takes the clocks of all sensors into its own time.
-collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const ScannerPlace& place) {
+collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, const ScannerPlace& place,
+                                          const std::vector<bool>& own_body) {
   return {from_message(scan.header.stamp),
           place.base_from_sensor,
           scan.angle_min,
@@ -41,7 +42,8 @@ collision_avoidance::SensorSweep to_sweep(const sensor_msgs::LaserScan& scan, co
           scan.range_min,
           scan.range_max,
           scan.ranges,
-          place.delay};
+          place.delay,
+          own_body};
 }
 
 const char* name_of(collision_avoidance::AvoiderDecision::State state) {
@@ -73,7 +75,7 @@ class AvoidModule final : public Module {
         mode_{context},
         body_{context.config.body()},
         cycle_{params.window.cycle},
-        widest_field_(body_.scanners.size()),
+        scanners_{nullptr, std::vector<double>(body_.scanners.size())},
         avoider_{limits, params, laser_names(body_), std::move(planner)},
         drive_{bus_.publisher(topics::kDrive)},
         state_{bus_.publisher(topics::kAvoidState)},
@@ -97,8 +99,8 @@ class AvoidModule final : public Module {
                                                  {odometry.twist.twist.linear.x, odometry.twist.twist.angular.z}};
       avoider_.add_odometry(bus_.now(), from_message(odometry.header.stamp), state);
     });
-    subscribe_scanners(bus_, body_,
-                       [this](std::size_t i, const auto& scan, const auto& place) { see(i, scan, place); });
+    scanners_.readers = subscribe_scanners(
+        bus_, body_, [this](std::size_t i, const auto& scan, const auto& place) { see(i, scan, place); });
     bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const sensor_msgs::Range& range) {
       const auto index = body_.sonar_of(range.header.frame_id);
       if (!index) return;
@@ -199,10 +201,10 @@ class AvoidModule final : public Module {
     // A scan of a part of the field would leave the rest as if nothing were there.
     constexpr double kFieldShare = 0.9;
     const double field = static_cast<double>(scan.angle_increment) * static_cast<double>(scan.ranges.size());
-    widest_field_[sensor] = std::max(widest_field_[sensor], field);
-    if (field < kFieldShare * widest_field_[sensor]) return;
+    scanners_.widest_field[sensor] = std::max(scanners_.widest_field[sensor], field);
+    if (field < kFieldShare * scanners_.widest_field[sensor]) return;
     const Time now = bus_.now();
-    avoider_.add_sweep(now, sensor, to_sweep(scan, place));
+    avoider_.add_sweep(now, sensor, to_sweep(scan, place, scanners_.readers->own_body(sensor)));
     if (now - decided_before_ < seconds(kLeastPause)) return reflex();
     if (!avoider_.awaits_sweep(now, kTogether)) return decide();
     reflex();
@@ -265,7 +267,10 @@ class AvoidModule final : public Module {
   MuseumMode mode_;
   robot::RobotBody body_;
   double cycle_;
-  std::vector<double> widest_field_;  ///< [scanners] [rad] that each has shown
+  struct {
+    std::shared_ptr<const ScannerReaders> readers;
+    std::vector<double> widest_field;  ///< [scanners] [rad] that each has shown
+  } scanners_;
   collision_avoidance::Avoider avoider_;
   struct {
     std::vector<collision_avoidance::BelievedPose> cells, hypotheses;

@@ -22,6 +22,8 @@ class ScannerReaders {
   /// The sweep of a scanner as all of Docent reads it (`ScanReader`): counter-clockwise as the robot
   /// stands, greatest range: nothing came back, NaN: no reading. O(beams)
   [[nodiscard]] sensor_msgs::LaserScan read(std::size_t scanner, const sensor_msgs::LaserScan& scan);
+  /// [beams] those of the scanner's newest sweep that ended on the robot itself; empty: none did.
+  [[nodiscard]] const std::vector<bool>& own_body(std::size_t scanner) const { return readers_[scanner].own_body(); }
   /// What a technician should know of the scanners: "scan_front writes 0 where …; …"; empty: nothing.
   [[nodiscard]] std::string notes() const;
   /// What of their sight keeps a robot from finding its place, likewise.
