@@ -104,6 +104,9 @@ class Bus {
   /// on how fast it was.
   [[nodiscard]] virtual double step_p99_ms() const { return 0.0; }
 
+  /// Programs beside this one that publish on a topic: one writer counts once, whatever type and quality it offers.
+  [[nodiscard]] virtual int other_writers(const TopicInfo& topic) = 0;
+
   /// What came on a topic and could not be used.
   struct Refusals {
     std::uint64_t count = 0;  ///< messages

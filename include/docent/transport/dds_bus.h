@@ -59,6 +59,10 @@ class DdsBus final : public Bus {
   /// subscribe to.
   [[nodiscard]] int alive_writers(const std::string& topic) const;
 
+  /// One that was killed is told from one that lives as `alive_writers` does, if it is Docent's; others stay until
+  /// their participant's lease is over (10 s of a ROS 2 program). O(writers of the domain)
+  [[nodiscard]] int other_writers(const TopicInfo& topic) override;
+
   /// What has come in, and what has not.
   struct Counters {
     std::uint64_t received = 0;  ///< samples given to handlers
@@ -118,6 +122,8 @@ class DdsBus final : public Bus {
 
   DdsBus(DdsOptions options, std::int32_t participant, std::int32_t own_domain);
   DdsTopic find_or_create(const TopicInfo& info);
+  [[nodiscard]] std::string wire_name(const TopicInfo& info) const;
+  [[nodiscard]] int foreign_endpoints(const std::string& wire_name);
   void write(Writer& writer, const std::shared_ptr<const void>& message);
   void retry_unsent();
   void take(Subscription& subscription);
@@ -132,6 +138,8 @@ class DdsBus final : public Bus {
   std::int32_t participant_ = 0;
   std::int32_t own_domain_ = 0;  ///< 0 where CYCLONEDDS_URI rules
   std::map<std::string, DdsTopic> topics_;
+  std::int32_t publications_ = 0;               ///< reads what DDS tells of all writers; 0: nobody has asked
+  std::map<std::string, std::int32_t> probes_;  ///< by topic, readers that nobody listens to: whose writers live
   std::deque<Writer> writers_;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::priority_queue<Timer> timers_;

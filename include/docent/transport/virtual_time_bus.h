@@ -64,6 +64,7 @@ class VirtualTimeHub {
   struct TopicState {
     TopicInfo info{};
     std::vector<Subscription> subscriptions;
+    std::vector<std::weak_ptr<Node*>> publishers;
     std::shared_ptr<const void> latched;
     Alteration alteration;  ///< empty: none
   };

@@ -279,6 +279,7 @@ class ManualBus : public transport::Bus {
     }
   }
   void post(std::function<void()> action) override { action(); }
+  int other_writers(const transport::TopicInfo& /*topic*/) override { return 0; }
   void add_subscription(const transport::TopicInfo& topic, Handler handler) override {
     handlers[topic.name] = std::move(handler);
   }

@@ -199,16 +199,19 @@ void DdsBus::post(std::function<void()> action) {
   wake_.notify_one();
 }
 
+std::string DdsBus::wire_name(const TopicInfo& info) const {
+  return "rt/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
+}
+
 DdsBus::DdsTopic DdsBus::find_or_create(const TopicInfo& info) {
   const auto known = topics_.find(info.name);
   if (known != topics_.end()) {
     DOCENT_CHECK(known->second.support == info.type);
     return known->second;
   }
-  const std::string wire_name = "rt/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
   ddsi_sertype* type = make_cdr_sertype(dds_type_name(info.type->name));
   const dds_entity_t entity =
-      dds_create_topic_sertype(participant_, wire_name.c_str(), &type, nullptr, nullptr, nullptr);
+      dds_create_topic_sertype(participant_, wire_name(info).c_str(), &type, nullptr, nullptr, nullptr);
   DOCENT_CHECK(entity > 0);
   return topics_.emplace(info.name, DdsTopic{entity, type, info.type}).first->second;
 }
@@ -360,6 +363,50 @@ int DdsBus::alive_writers(const std::string& topic) const {
     return static_cast<int>(status.alive_count);
   }
   return -1;
+}
+
+int DdsBus::foreign_endpoints(const std::string& wire_name) {
+  constexpr std::uint32_t kMost = 1024;
+  if (publications_ == 0)
+    publications_ = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  dds_guid_t own{};
+  if (publications_ < 0 || dds_get_guid(participant_, &own) != DDS_RETCODE_OK) return 0;
+  std::vector<void*> samples(kMost, nullptr);
+  std::vector<dds_sample_info_t> infos(kMost);
+  const dds_return_t count = dds_read_mask(publications_, samples.data(), infos.data(), kMost, kMost,
+                                           DDS_ANY_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+  int found = 0;
+  for (dds_return_t i = 0; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!infos[k].valid_data) continue;
+    const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[k]);
+    dds_liveliness_kind_t kind = DDS_LIVELINESS_AUTOMATIC;
+    dds_duration_t lease = DDS_INFINITY;
+    if (endpoint.qos != nullptr) dds_qget_liveliness(endpoint.qos, &kind, &lease);
+    // One with a lease of its own is asked for its life elsewhere.
+    if (wire_name == endpoint.topic_name && lease == DDS_INFINITY &&
+        !std::equal(std::begin(own.v), std::end(own.v), std::begin(endpoint.participant_key.v)))
+      ++found;
+  }
+  if (count > 0) dds_return_loan(publications_, samples.data(), count);
+  return found;
+}
+
+int DdsBus::other_writers(const TopicInfo& topic) {
+  auto [probe, is_new] = probes_.try_emplace(topic.name, 0);
+  if (is_new) {
+    auto qos = base_qos(topic);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, kMaxBlocking);
+    probe->second = dds_create_reader(participant_, find_or_create(topic).entity, qos.get(), nullptr);
+  }
+  const auto own = std::count_if(
+      writers_.begin(), writers_.end(),
+      [entity = find_or_create(topic).entity](const Writer& writer) { return writer.topic.entity == entity; });
+  dds_liveliness_changed_status_t status{};
+  const bool is_told = probe->second > 0 && dds_get_liveliness_changed_status(probe->second, &status) == DDS_RETCODE_OK;
+  const int alive = is_told ? static_cast<int>(status.alive_count) - static_cast<int>(own) : 0;
+  return std::max({alive, foreign_endpoints(wire_name(topic)), 0});
 }
 
 void DdsBus::warn_later(std::string text) {

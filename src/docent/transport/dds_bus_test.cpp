@@ -100,6 +100,23 @@ TEST(DdsBus, ScansOfAnotherProcessArriveAndItsDeathShows) {
   EXPECT_TRUE(run_until(*bus, [&] { return scans > before + 5; })) << "a restarted writer is heard again";
 }
 
+TEST(DdsBus, OtherProgramsThatPublishOnATopicAreCounted) {
+  const auto bus = bus_in(kDomain);
+  const auto topic = topic_info(topics::kCommandVelocity);
+  bus->publisher(topics::kCommandVelocity).publish({});
+  bool is_over = false;
+  bus->after(1500ms, [&] { is_over = true; });
+  EXPECT_EQ(bus->other_writers(topic), 0);
+  ASSERT_TRUE(run_until(*bus, [&] { return is_over; }));
+  EXPECT_EQ(bus->other_writers(topic), 0) << "it does not count itself";
+  Peer robot{"second_robot", kDomain};
+  EXPECT_TRUE(run_until(*bus, [&] { return bus->other_writers(topic) == 1; }));
+  robot.kill_hard();
+  EXPECT_TRUE(run_until(*bus, [&] { return bus->other_writers(topic) == 0; })) << "its death shows";
+  Peer joystick{"joystick", kDomain};
+  EXPECT_TRUE(run_until(*bus, [&] { return bus->other_writers(topic) == 1; })) << "of another type";
+}
+
 TEST(DdsBus, WhatCannotBeIsRefusedAndCounted) {
   const auto bus = bus_in(kDomain);
   std::vector<double> speeds;

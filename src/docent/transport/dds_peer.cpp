@@ -1,9 +1,12 @@
+#include <dds/dds.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <numeric>
 
 #include "docent/messages/conversions.h"
+#include "docent/transport/cdr_sertype.h"
 #include "docent/transport/dds_bus.h"
 
 // The other process of dds_bus_test: dds_peer ROLE DOMAIN. Runs until it is killed.
@@ -42,6 +45,16 @@ int main(int argc, char** argv) {
                                            [out = bus.publisher(topics::kHorn)](const nav_msgs::OccupancyGrid& map) {
                                              out.publish({{}, std::to_string(std::lround(map.info.origin.position.x))});
                                            });
+  } else if (role == "joystick") {
+    // As programs of ROS 2 do: no lease of its own, and a type that nobody here reads.
+    ddsi_sertype* type = transport::make_cdr_sertype("geometry_msgs::msg::dds_::TwistStamped_");
+    const dds_entity_t participant = dds_create_participant(std::atoi(argv[2]), nullptr, nullptr);
+    const dds_entity_t topic = dds_create_topic_sertype(participant, "rt/cmd_vel", &type, nullptr, nullptr, nullptr);
+    if (dds_create_writer(participant, topic, nullptr, nullptr) < 0) return 1;
+  } else if (role == "second_robot") {
+    bus.every(std::chrono::milliseconds{50}, [out = bus.publisher(topics::kCommandVelocity)] {
+      out.publish({{0.1, 0.0, 0.0}, {}});
+    });
   } else {
     return 2;
   }

@@ -43,6 +43,13 @@ class VirtualTimeHub::Node final : public Bus {
       hub_.schedule(hub_.now_, self_, [handler = std::move(handler), message = state.latched] { handler(message); });
     }
   }
+  [[nodiscard]] int other_writers(const TopicInfo& info) override {
+    const auto& publishers = hub_.topic(info).publishers;
+    return static_cast<int>(std::count_if(publishers.begin(), publishers.end(), [this](const auto& publisher) {
+      const auto node = publisher.lock();
+      return node && node != self_;
+    }));
+  }
   void run(const std::function<void()>& action) {
     const double start = hub_.cost_clock();
     action();
@@ -54,6 +61,7 @@ class VirtualTimeHub::Node final : public Bus {
  protected:
   int add_publisher(const TopicInfo& info) override {
     publishers_.push_back(&hub_.topic(info));
+    publishers_.back()->publishers.push_back(self_);
     published_.insert(info.name);
     return static_cast<int>(publishers_.size()) - 1;
   }

@@ -60,6 +60,11 @@ class RobotModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!odometry_received_) return {"starting", "no odometry yet"};
     if (bus_.now() - *odometry_received_ > seconds(1.0)) return {"degraded", "no fresh odometry from the base"};
+    // Each would be obeyed in turn; nothing here can stop the other.
+    if (const int others = bus_.other_writers(transport::topic_info(topics::kCommandVelocity)); others > 0)
+      return {"degraded", "the base is commanded by " +
+                              (others == 1 ? "another program" : std::to_string(others) + " other programs") +
+                              ", too: cmd_vel"};
     if (battery_ < params_.battery_low) return {"degraded", "the battery is low"};
     ModuleHealth health = stop_.health();
     if (from_tf_.is_needed() && health.reason.empty())

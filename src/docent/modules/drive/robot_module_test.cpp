@@ -53,6 +53,19 @@ TEST_F(RobotModule, PassesACommandOnAtOnceThenRepeatsItWhileItIsFresh) {
     EXPECT_EQ(command.linear, command.at <= 1.013 + 0.3 + 1e-9 ? 0.4 : 0.0) << command.at;
 }
 
+TEST_F(RobotModule, ASecondProgramThatCommandsTheBaseIsNamed) {
+  start();
+  odometry.publish({});
+  run(0.6);
+  EXPECT_EQ(module->health().state, "ready") << "it is alone";
+  const auto joystick = world->publisher(topics::kCommandVelocity);
+  joystick.publish({});
+  odometry.publish({});
+  run(0.5);
+  EXPECT_EQ(module->health().state, "degraded");
+  EXPECT_NE(module->health().reason.find("another program"), std::string::npos) << module->health().reason;
+}
+
 TEST_F(RobotModule, TheBodysLimitsHoldWhateverIsWanted) {
   ASSERT_TRUE(config.set("body.max_speed=0.5"));
   ASSERT_TRUE(config.set("body.max_turn_rate=0.7"));

@@ -61,6 +61,7 @@ class AlteredBus final : public transport::Bus {
   void every(Duration period, std::function<void()> action) override { bus_->every(period, std::move(action)); }
   void after(Duration delay, std::function<void()> action) override { bus_->after(delay, std::move(action)); }
   void post(std::function<void()> action) override { bus_->post(std::move(action)); }
+  [[nodiscard]] int other_writers(const transport::TopicInfo& topic) override { return bus_->other_writers(topic); }
   [[nodiscard]] double step_p99_ms() const override { return bus_->step_p99_ms(); }
   void add_subscription(const transport::TopicInfo& topic, Handler handler) override;
 
