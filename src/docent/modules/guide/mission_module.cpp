@@ -159,7 +159,7 @@ class MissionModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     const std::string fault = service_.fault(bus_.now());
-    return fault.empty() ? ModuleHealth{} : ModuleHealth{"degraded", fault};
+    return fault.empty() ? ModuleHealth{"ready", mode_.clock().change()} : ModuleHealth{"degraded", fault};
   }
 
  private:
@@ -198,6 +198,7 @@ class MissionModule final : public Module {
       service_.battery(charge, is_charging(message), bus_.now());
     });
     bus_.every(kMissionPeriod, [this] {
+      mode_.clock().look();
       service_.time_of_day(mode_.minute_of_day(bus_.now()) / 60);
       tell_mode();
       tell(service_.tick(bus_.now()));

@@ -8,6 +8,7 @@
 
 #include "docent/base/result.h"
 #include "docent/museum/museum.h"
+#include "docent/museum/wall_clock.h"
 #include "docent/robot/parameter_list.h"
 #include "docent/robot/robot_config.h"
 #include "docent/transport/bus.h"
@@ -30,6 +31,7 @@ struct ModuleContext {
   /// The museum is being set up, and `web` has the page for it.
   bool is_setup = false;
   museum::CheckedRobot checked_robot{};  ///< for which a museum is checked: that for which `plan` plans
+  museum::Clocks clocks{};
 };
 
 struct ModuleHealth {

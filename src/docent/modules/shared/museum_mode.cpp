@@ -1,22 +1,8 @@
 #include "docent/modules/shared/museum_mode.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdint>
-#include <ctime>
 
 namespace docent::modules {
-
-int MuseumMode::minute_of_day(Time now) const {
-  if (is_virtual_) {
-    const auto minutes = std::chrono::floor<std::chrono::minutes>(day_begins_ + Duration{now.nanoseconds});
-    return static_cast<int>(minutes.count() % (std::int64_t{24} * 60));
-  }
-  const std::time_t seconds = now.nanoseconds / 1'000'000'000;
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  return local.tm_hour * 60 + local.tm_min;
-}
 
 std::string MuseumMode::name(Time now) const {
   return is_by_hours() ? museum::mode_at(museum_, minute_of_day(now)) : limits_->mode;
