@@ -1,5 +1,5 @@
 import { app, keyOf, type Wish } from '../lib/state.svelte';
-import { answerOf, helpOf, lampsOf } from '../lib/orders';
+import { answerOf, helpOf, lampsOf, stopOf } from '../lib/orders';
 import { sentencesOf } from '../lib/sentences';
 import { uuid7 } from '../lib/uuid';
 import { type Act, type Asked, litOf, openStates, type Page, pollQuestions, type Screen, screenOf } from './screens';
@@ -78,6 +78,11 @@ class Desk {
     if (!choice || choice.isComing || at - this.obeyed < DOUBLE) return;
     this.obeyed = at;
     this.obey(choice.act);
+  }
+
+  /** Staff let the robot go on. */
+  stop(): void {
+    app.tell(stopOf(uuid7(), true, 0));
   }
 
   // What is shown -------------------------------------------------------------------------------------------------

@@ -20,6 +20,7 @@ import type {
   MapsMessage,
   MissionMessage,
   Museum,
+  OperationMessage,
   PathMessage,
   Point,
   Reason,
@@ -97,6 +98,8 @@ class App {
   maps = $state.raw<MapsMessage | null>(null);
   shows = $state({ value: false, live: false });
   exploration = $state.raw<ExplorationMessage | null>(null);
+  /** On the robot's own screen: there, it has a button that stops the robot. */
+  operation = $state.raw<OperationMessage | null>(null);
   avoid = $state.raw<Avoid | null>(null);
   localized = $state(false);
   battery = $state<number | null>(null);
@@ -396,41 +399,31 @@ class App {
   private keep(message: ServerMessage): void {
     switch (message.type) {
       case 'health':
-        this.health = message;
-        return;
+        return void (this.health = message);
       case 'window':
-        this.window = message;
-        return;
+        return void (this.window = message);
       case 'field':
-        this.field = message;
-        return;
+        return void (this.field = message);
       case 'log':
-        this.log = message;
-        return;
+        return void (this.log = message);
+      case 'operation':
+        return void (this.operation = message);
       case 'horn':
-        this.horn = message;
-        return;
+        return void (this.horn = message);
       case 'sound':
-        this.levels = message;
-        return;
+        return void (this.levels = message);
       case 'expression':
-        this.expression = message;
-        return;
+        return void (this.expression = message);
       case 'button':
-        this.button = message;
-        return;
+        return void (this.button = message);
       case 'speech':
-        this.speech = message;
-        return;
+        return void (this.speech = message);
       case 'votes':
-        this.votes = message;
-        return;
+        return void (this.votes = message);
       case 'belief':
-        this.belief = message;
-        return;
+        return void (this.belief = message);
       case 'path':
-        this.path = message;
-        return;
+        return void (this.path = message);
     }
   }
   private takeLive(message: LiveMessage): void {

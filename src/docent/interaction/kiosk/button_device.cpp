@@ -56,22 +56,31 @@ Result<std::string> find_device(const std::string& name) {
 Result<void> ButtonParams::validate() const {
   if (!(debounce >= 0.0 && debounce <= 1.0)) return fail("buttons.debounce must be 0..1 s");
   if (!(retry > 0.0)) return fail("buttons.retry must be > 0 s");
-  auto codes = button_codes(keys);
+  auto codes = button_codes(keys, stop_key);
   if (!codes) return tl::unexpected<Error>(codes.error());
   return {};
 }
 
-Result<ButtonCodes> button_codes(const std::vector<std::string>& keys) {
-  ButtonCodes codes{};
-  if (keys.size() != codes.size()) return fail("buttons.keys must name four keys");
-  for (std::size_t i = 0; i < codes.size(); ++i) {
-    const int code = libevdev_event_code_from_name(EV_KEY, keys[i].c_str());
-    if (code < 0) return fail("buttons.keys: " + keys[i] + " is no key");
-    codes[i] = static_cast<std::uint16_t>(code);
-    if (std::find(codes.begin(), codes.begin() + static_cast<std::ptrdiff_t>(i), codes[i]) !=
-        codes.begin() + static_cast<std::ptrdiff_t>(i))
-      return fail("buttons.keys: " + keys[i] + " stands twice");
+Result<ButtonCodes> button_codes(const std::vector<std::string>& keys, const std::string& stop_key) {
+  ButtonCodes codes;
+  if (keys.size() != codes.buttons.size()) return fail("buttons.keys must name four keys");
+  std::set<std::uint16_t> taken;
+  const auto code_of = [&](const std::string& option, const std::string& key) -> Result<std::uint16_t> {
+    const int code = libevdev_event_code_from_name(EV_KEY, key.c_str());
+    if (code < 0) return fail("buttons." + option + ": " + key + " is no key");
+    if (!taken.insert(static_cast<std::uint16_t>(code)).second)
+      return fail("buttons." + option + ": " + key + " stands twice");
+    return static_cast<std::uint16_t>(code);
+  };
+  for (std::size_t i = 0; i < codes.buttons.size(); ++i) {
+    const auto code = code_of("keys", keys[i]);
+    if (!code) return tl::unexpected<Error>(code.error());
+    codes.buttons[i] = *code;
   }
+  if (stop_key.empty()) return codes;
+  const auto code = code_of("stop_key", stop_key);
+  if (!code) return tl::unexpected<Error>(code.error());
+  codes.stop = *code;
   return codes;
 }
 

@@ -16,6 +16,7 @@ struct ButtonParams {
   std::string name;    ///< of the device, as evtest shows it; both empty: there are no buttons
   /// Of buttons 1 to 4, as linux/input.h names them.
   std::vector<std::string> keys{"KEY_1", "KEY_2", "KEY_3", "KEY_4"};
+  std::string stop_key;    ///< of this device, stops the robot; staff release it on /operate; empty: there is none
   double debounce = 0.05;  ///< [s], 0..1: contacts bounce for 5 to 20 ms, and nobody presses twice within 50 ms
   double retry = 1.0;      ///< [s], > 0: from one attempt to open a device that is not there to the next
   bool grab = true;        ///< nobody else gets these keys: else the screen's browser would hear each press twice
@@ -24,6 +25,7 @@ struct ButtonParams {
     v("device", device);
     v("name", name);
     v("keys", keys);
+    v("stop_key", stop_key);
     v("debounce", debounce);
     v("retry", retry);
     v("grab", grab);
@@ -33,7 +35,8 @@ struct ButtonParams {
 };
 
 /// The codes of the keys' names. Error: "buttons.keys: KEY_X is no key".
-[[nodiscard]] Result<ButtonCodes> button_codes(const std::vector<std::string>& keys);
+/// @param stop_key  empty: there is none
+[[nodiscard]] Result<ButtonCodes> button_codes(const std::vector<std::string>& keys, const std::string& stop_key);
 
 /// An open evdev device, or a pipe of its bytes. One thread.
 class ButtonDevice {

@@ -56,9 +56,12 @@ TEST_F(ButtonDeviceTest, WhatIsNoDeviceIsNamed) {
 }
 
 TEST(ButtonParams, KeysAreThoseOfLinux) {
-  EXPECT_EQ(button_codes({"KEY_1", "KEY_2", "KEY_3", "KEY_4"}), (ButtonCodes{KEY_1, KEY_2, KEY_3, KEY_4}));
-  EXPECT_EQ(button_codes({"BTN_TRIGGER", "BTN_THUMB", "KEY_A", "KEY_F1"}),
-            (ButtonCodes{BTN_TRIGGER, BTN_THUMB, KEY_A, KEY_F1}));
+  using Buttons = std::array<std::uint16_t, kButtons>;
+  EXPECT_EQ(button_codes({"KEY_1", "KEY_2", "KEY_3", "KEY_4"}, "")->buttons, (Buttons{KEY_1, KEY_2, KEY_3, KEY_4}));
+  EXPECT_EQ(button_codes({"BTN_TRIGGER", "BTN_THUMB", "KEY_A", "KEY_F1"}, "")->buttons,
+            (Buttons{BTN_TRIGGER, BTN_THUMB, KEY_A, KEY_F1}));
+  EXPECT_EQ(button_codes({"KEY_1", "KEY_2", "KEY_3", "KEY_4"}, "KEY_ESC")->stop, KEY_ESC);
+  EXPECT_FALSE(button_codes({"KEY_1", "KEY_2", "KEY_3", "KEY_4"}, "")->stop);
   ButtonParams params;
   EXPECT_TRUE(params.validate());
   EXPECT_FALSE(params.is_configured());
@@ -69,6 +72,11 @@ TEST(ButtonParams, KeysAreThoseOfLinux) {
   EXPECT_EQ(fault(), "buttons.keys: KEY_1 stands twice");
   params.keys = {"KEY_1"};
   EXPECT_EQ(fault(), "buttons.keys must name four keys");
+  params = {};
+  params.stop_key = "KEY_2";
+  EXPECT_EQ(fault(), "buttons.stop_key: KEY_2 stands twice");
+  params.stop_key = "STOP";
+  EXPECT_EQ(fault(), "buttons.stop_key: STOP is no key");
   params = {};
   params.debounce = 2;
   EXPECT_EQ(fault(), "buttons.debounce must be 0..1 s");

@@ -15,21 +15,27 @@ std::vector<int> ButtonStream::take(std::string_view bytes, Time now) {
     input_event event{};
     std::memcpy(&event, rest_.data() + at, sizeof event);
     if (event.type != EV_KEY) continue;
-    const auto* const code = std::find(codes_.begin(), codes_.end(), event.code);
-    if (code == codes_.end()) continue;
-    const auto button = static_cast<std::size_t>(code - codes_.begin());
-    if (is_press(button, event.value, now)) pressed.push_back(static_cast<int>(button) + 1);
+    const auto number = number_of(event.code);
+    if (number && is_press(*number, event.value, now)) pressed.push_back(*number);
   }
   rest_.erase(0, at);
   return pressed;
 }
 
-bool ButtonStream::is_press(std::size_t button, std::int32_t value, Time now) {
+std::optional<int> ButtonStream::number_of(std::uint16_t code) const {
+  if (codes_.stop == code) return kStopKey;
+  const auto place = std::find(codes_.buttons.begin(), codes_.buttons.end(), code);
+  if (place == codes_.buttons.end()) return std::nullopt;
+  return static_cast<int>(place - codes_.buttons.begin()) + 1;
+}
+
+bool ButtonStream::is_press(int number, std::int32_t value, Time now) {
   constexpr std::int32_t kReleased = 0;
   constexpr std::int32_t kPressed = 1;  // 2: held, and the keyboard repeats it
   if (value != kReleased && value != kPressed) return false;
-  const bool bounces = changed_[button] && now - *changed_[button] < debounce_;
-  changed_[button] = now;
+  const auto at = static_cast<std::size_t>(number);
+  const bool bounces = changed_[at] && now - *changed_[at] < debounce_;
+  changed_[at] = now;
   return value == kPressed && !bounces;
 }
 

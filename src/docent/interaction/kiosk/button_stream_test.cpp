@@ -10,7 +10,7 @@
 namespace docent::interaction {
 namespace {
 
-constexpr ButtonCodes kCodes{KEY_1, KEY_2, KEY_3, KEY_4};
+constexpr ButtonCodes kCodes{{KEY_1, KEY_2, KEY_3, KEY_4}, KEY_ESC};
 const Duration kDebounce = seconds(0.05);
 
 std::string event(int type, int code, int value) {
@@ -32,6 +32,13 @@ TEST(ButtonStream, APressIsAPressAndAReleaseIsNone) {
   EXPECT_EQ(stream.take(key(KEY_3, 1), time_from_seconds(1)), std::vector<int>{3});
   EXPECT_EQ(stream.take(key(KEY_3, 0), time_from_seconds(1.2)), std::vector<int>{});
   EXPECT_EQ(stream.take(key(KEY_1, 1) + key(KEY_4, 1), time_from_seconds(2)), (std::vector<int>{1, 4}));
+}
+
+TEST(ButtonStream, TheStopKeyIsNoButton) {
+  ButtonStream stream{kCodes, kDebounce};
+  EXPECT_EQ(stream.take(key(KEY_ESC, 1) + key(KEY_2, 1), time_from_seconds(1)), (std::vector<int>{kStopKey, 2}));
+  ButtonStream without{{kCodes.buttons, {}}, kDebounce};
+  EXPECT_TRUE(without.take(key(KEY_ESC, 1), time_from_seconds(1)).empty());
 }
 
 TEST(ButtonStream, AHeldButtonIsOnePress) {

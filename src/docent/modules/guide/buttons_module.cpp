@@ -9,6 +9,7 @@
 #include "docent/interaction/kiosk/button_device.h"
 #include "docent/interaction/kiosk/button_stream.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/shared/stop_keeper.h"
 
 namespace docent::modules {
 namespace {
@@ -72,6 +73,7 @@ class ButtonsModule final : public Module {
                 const interaction::ButtonCodes& codes)
       : bus_{context.bus}, stream_{codes, seconds(params.debounce)}, presses_{bus_.publisher(topics::kButton)} {
     if (context.virtual_time || !params.is_configured()) return;
+    if (codes.stop) stop_.emplace(context, "buttons", [] {});
     // The reader outlives no module: what it posts late finds the guard gone.
     const std::weak_ptr<ButtonsModule*> guard = guard_;
     const auto post = [&bus = bus_, guard](void (ButtonsModule::*take)(const std::string&)) {
@@ -86,13 +88,20 @@ class ButtonsModule final : public Module {
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    if (!fault_.empty()) return {"degraded", "no buttons: " + fault_};
-    return {};
+    if (!fault_.empty()) return {"degraded", (stop_ ? "no buttons and no stop key: " : "no buttons: ") + fault_};
+    return stop_ ? stop_->health() : ModuleHealth{};
   }
 
  private:
   void on_bytes(const std::string& bytes) {
-    for (const int number : stream_.take(bytes, bus_.now())) presses_.publish({{to_message(bus_.now()), ""}, number});
+    for (const int number : stream_.take(bytes, bus_.now())) {
+      if (number == interaction::kStopKey) {
+        stop_->button().press("the stop key");
+        stop_->tell();
+      } else {
+        presses_.publish({{to_message(bus_.now()), ""}, number});
+      }
+    }
   }
   void on_fault(const std::string& fault) {
     fault_ = fault;
@@ -102,6 +111,7 @@ class ButtonsModule final : public Module {
   transport::Bus& bus_;
   interaction::ButtonStream stream_;
   transport::Publisher<docent_msgs::Button> presses_;
+  std::optional<StopKeeper> stop_;  ///< where there is a stop key
   std::string fault_;
   std::shared_ptr<ButtonsModule*> guard_ = std::make_shared<ButtonsModule*>(this);
   std::unique_ptr<DeviceReader> reader_;  ///< last: its thread ends first
@@ -112,7 +122,7 @@ class ButtonsModule final : public Module {
 Result<std::unique_ptr<Module>> make_buttons(const ModuleContext& context) {
   auto params = context.config.section<interaction::ButtonParams>("buttons");
   if (!params) return tl::unexpected<Error>(params.error());
-  auto codes = interaction::button_codes(params->keys);
+  auto codes = interaction::button_codes(params->keys, params->stop_key);
   if (!codes) return tl::unexpected<Error>(codes.error());
   return std::make_unique<ButtonsModule>(context, *params, *codes);
 }

@@ -86,6 +86,25 @@ class ButtonsModuleTest : public testing::Test {
   std::unique_ptr<Module> module_;
 };
 
+TEST_F(ButtonsModuleTest, TheStopKeyStopsTheRobot) {
+  ASSERT_EQ(::mkfifo(pipe_.c_str(), 0600), 0);
+  ASSERT_TRUE(config_.set("buttons.stop_key=KEY_ESC"));
+  std::string stopped_by;
+  world_->subscribe<docent_msgs::Stop>(topics::kStop, [&](const auto& stop) {
+    if (stop.is_stopped) stopped_by = stop.by;
+  });
+  start();
+  plug();
+  press(KEY_1);
+  ASSERT_TRUE(eventually([this] { return pressed_ == std::vector<int>{1}; }));
+  EXPECT_EQ(stopped_by, "");
+  press(KEY_ESC);
+  EXPECT_TRUE(eventually([&] { return stopped_by == "the stop key"; }));
+  EXPECT_EQ(pressed_, std::vector<int>{1}) << "no button of the four";
+  unplug();
+  EXPECT_TRUE(eventually([this] { return reason().starts_with("no buttons and no stop key"); })) << reason();
+}
+
 TEST_F(ButtonsModuleTest, TellsEachPress) {
   ASSERT_EQ(::mkfifo(pipe_.c_str(), 0600), 0);
   start();

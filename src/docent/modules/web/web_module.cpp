@@ -195,7 +195,7 @@ class WebModule final : public Module {
     server_ = std::move(server);
     viewers_.set_server(*server_);
     foxglove_.set_server(*server_);
-    server_->restrict_to(telepresence::Stream::operators, slots::kOperation);
+    server_->restrict_to(telepresence::Stream::stop, slots::kOperation);
     live_.begin(*server_);
     inside_.begin(*server_);
     maps_.begin(*server_, slots::kMaps);

@@ -39,8 +39,10 @@ std::optional<Role> role_of(const Opening& opening, const std::vector<std::strin
   return is_same_key(opening.key, screen_key) ? std::optional{Role::kiosk} : std::nullopt;
 }
 
-bool may_ask(Role role, const ClientMessage& message) {
+bool may_ask(Role role, const ClientMessage& message, bool screen_stops) {
   if (std::holds_alternative<WatchMessage>(message)) return true;
+  const auto* stop = std::get_if<StopMessage>(&message);
+  if (role == Role::kiosk && screen_stops && stop != nullptr && stop->stopped) return true;
   const bool is_of_the_screen = std::holds_alternative<LampsMessage>(message) ||
                                 std::holds_alternative<HelpMessage>(message) ||
                                 std::holds_alternative<AnswerMessage>(message);

@@ -36,6 +36,7 @@ struct Opening {
                                           std::string_view screen_key);
 
 /// Whether somebody in this role may ask for it.
-[[nodiscard]] bool may_ask(Role role, const ClientMessage& message);
+/// @param screen_stops  the robot's own screen may stop the robot; nobody but staff lets it go again
+[[nodiscard]] bool may_ask(Role role, const ClientMessage& message, bool screen_stops);
 
 }  // namespace docent::telepresence

@@ -27,11 +27,23 @@ TEST(Roles, EachRoleAsksForWhatIsIts) {
   const std::vector<ClientMessage> of_the_screen{LampsMessage{}, HelpMessage{}, AnswerMessage{}};
   const std::vector<ClientMessage> of_staff{LeaseMessage{}, SteerMessage{}, StopMessage{}, SetHoursMessage{}};
   for (const Role role : {Role::observer, Role::visitor, Role::kiosk, Role::staff}) {
-    EXPECT_TRUE(may_ask(role, watch));
-    for (const ClientMessage& wish : wishes) EXPECT_EQ(may_ask(role, wish), role != Role::observer);
-    for (const ClientMessage& own : of_the_screen) EXPECT_EQ(may_ask(role, own), role == Role::kiosk);
-    for (const ClientMessage& own : of_staff) EXPECT_EQ(may_ask(role, own), role == Role::staff);
+    for (const bool screen_stops : {false, true}) {
+      EXPECT_TRUE(may_ask(role, watch, screen_stops));
+      for (const ClientMessage& wish : wishes) EXPECT_EQ(may_ask(role, wish, screen_stops), role != Role::observer);
+      for (const ClientMessage& own : of_the_screen) EXPECT_EQ(may_ask(role, own, screen_stops), role == Role::kiosk);
+      for (const ClientMessage& own : of_staff) EXPECT_EQ(may_ask(role, own, screen_stops), role == Role::staff);
+    }
   }
+}
+
+TEST(Roles, TheRobotsScreenStopsItWhereItMayAndNeverLetsItGo) {
+  StopMessage stop;
+  stop.stopped = true;
+  EXPECT_FALSE(may_ask(Role::kiosk, stop, false));
+  EXPECT_TRUE(may_ask(Role::kiosk, stop, true));
+  EXPECT_FALSE(may_ask(Role::visitor, stop, true));
+  stop.stopped = false;
+  EXPECT_FALSE(may_ask(Role::kiosk, stop, true));
 }
 
 }  // namespace

@@ -45,8 +45,10 @@ void Session::run(HttpRequest request, std::uint32_t slots, bool is_thin) {
 
 std::uint32_t Session::wanted() const {
   // An operator's connection is for orders and what becomes of them; they watch on another.
-  if (caller_.role == Role::staff) return owner_.operator_slots;
-  const std::uint32_t others = owner_.operator_slots | (is_thin_ ? owner_.full_slots : owner_.thin_slots) |
+  if (caller_.role == Role::staff) return owner_.operator_slots | owner_.stop_slots;
+  const bool may_stop = caller_.role == Role::kiosk && owner_.screen_stops;
+  const std::uint32_t others = owner_.operator_slots | (may_stop ? 0 : owner_.stop_slots) |
+                               (is_thin_ ? owner_.full_slots : owner_.thin_slots) |
                                (wants_details_ ? 0 : owner_.detail_slots);
   return ~others;
 }
@@ -112,7 +114,8 @@ void Session::take(const std::string& text, bool is_text) {
   }
   auto message = parse_client_message(text);
   if (!message) return refuse(CloseCode::policy_error, message.error().message);
-  if (!may_ask(caller_.role, *message)) return refuse(CloseCode::policy_error, "this is not yours to ask");
+  if (!may_ask(caller_.role, *message, owner_.screen_stops))
+    return refuse(CloseCode::policy_error, "this is not yours to ask");
   if (const auto* wish = std::get_if<WatchMessage>(&*message)) {
     watch(*wish);
   } else {

@@ -25,6 +25,8 @@ struct SessionOwner {
   std::uint32_t full_slots = 0;
   std::uint32_t thin_slots = 0;
   std::uint32_t operator_slots = 0;
+  std::uint32_t stop_slots = 0;
+  bool screen_stops = false;             ///< see WebServerParams
   RateLimits of_address{{20.0, 200.0}};  ///< of what visitors send, by their network
   std::atomic<std::size_t> connections{0};
   std::atomic<std::uint64_t> messages_in{0}, messages_refused{0}, messages_out{0}, values_skipped{0};

@@ -44,7 +44,7 @@ void UplinkSession::run(HttpRequest request, std::uint32_t slots) {
 }
 
 std::uint32_t UplinkSession::wanted() const {
-  return ~(sessions_.full_slots | sessions_.detail_slots | sessions_.operator_slots);
+  return ~(sessions_.full_slots | sessions_.detail_slots | sessions_.operator_slots | sessions_.stop_slots);
 }
 
 void UplinkSession::mark(std::size_t slot) {
@@ -132,7 +132,7 @@ void UplinkSession::hear(ToMuseum message) {
     // The far gateway has looked at it; here it is looked at again.
     const auto parsed = parse_client_message(said->text);
     const bool is_theirs = said->viewer < (1ULL << kUplinkShift);
-    if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed)) return void(++sessions_.messages_refused);
+    if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed, false)) return void(++sessions_.messages_refused);
     return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, "", "", "uplink"}, *parsed);
   }
   auto& call = std::get<UplinkCall>(message);

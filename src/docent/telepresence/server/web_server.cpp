@@ -52,6 +52,7 @@ struct WebServer::Core {
         accept_timer{io} {
     sessions.message = hooks.message;
     sessions.of_address = RateLimits{{params.messages_of_address, params.message_burst_of_address}};
+    sessions.screen_stops = params.screen_stops;
     sessions.left = [this](const Caller& caller) {
       if (groups[caller.id % kGroups].erase(caller.id) == 0) return;
       --viewers;
@@ -325,7 +326,8 @@ void WebServer::restrict_to(Stream stream, int slot) {
     SessionOwner& sessions = core->sessions;
     for (const auto& [kind, slots] :
          {std::pair{Stream::details, &sessions.detail_slots}, std::pair{Stream::full, &sessions.full_slots},
-          std::pair{Stream::thin, &sessions.thin_slots}, std::pair{Stream::operators, &sessions.operator_slots}})
+          std::pair{Stream::thin, &sessions.thin_slots}, std::pair{Stream::operators, &sessions.operator_slots},
+          std::pair{Stream::stop, &sessions.stop_slots}})
       *slots = kind == stream ? *slots | bit : *slots & ~bit;
   });
 }

@@ -33,6 +33,7 @@ struct WebServerParams {
   int connections_of_address = 1000;        ///< that are not of this computer; more are closed
   double messages_of_address = 20.0;        ///< per second, of all visitors who come from one address
   double message_burst_of_address = 200.0;  ///< likewise at once
+  bool screen_stops = false;  ///< the robot's own screen has a button that stops it; staff let it go on, on /operate
   std::vector<std::string> hosts;    ///< names by which the server may be called, besides localhost, addresses and
                                      ///< the computer's own; behind a proxy that passes on Host: the public name
   std::vector<std::string> origins;  ///< hosts besides the server's own whose pages may open the live channel
@@ -56,6 +57,7 @@ struct WebServerParams {
     v("connections_of_address", connections_of_address);
     v("messages_of_address", messages_of_address);
     v("message_burst_of_address", message_burst_of_address);
+    v("screen_stops", screen_stops);
     v("hosts", hosts);
     v("origins", origins);
     v("proxies", proxies);
@@ -75,8 +77,9 @@ struct Caller {
 };
 
 /// To whom a slot is sent: everybody but operators' own connections; who asked for details; who gets all that moves;
-/// who gets the pose alone; operators.
-enum class Stream { everybody, details, full, thin, operators };
+/// who gets the pose alone; operators; operators and the robot's own screen, where it has a button that stops the
+/// robot.
+enum class Stream { everybody, details, full, thin, operators, stop };
 
 class ApiDesk;
 class FoxgloveHub;

@@ -56,14 +56,14 @@ Reason OperatorDesk::steer(const Caller& caller, const SteerMessage& wish, Time 
 
 void OperatorDesk::stop(const Caller& caller, const StopMessage& wish, Time now) {
   if (wish.stopped) {
-    button_.press(caller.name);
+    button_.press(caller.role == Role::kiosk ? "the robot's screen" : caller.name);
   } else if (!button_.release(caller.name, static_cast<std::uint64_t>(wish.number)) && button_.state().is_stopped) {
     answers_.push_back({caller.id, wish.id, {ReasonWord::another_stop, button_.state().by}});
     return;
   }
   robot_.tell_stop();
   unconfirmed_.push_back({caller.id, wish.id, button_.state().number, now + kConfirmedWithin});
-  note_(caller.name, "stop", wish.stopped ? "pressed" : "released");
+  note_(button_.state().by, "stop", wish.stopped ? "pressed" : "released");
 }
 
 std::vector<OperatorDesk::Answer> OperatorDesk::answers(Time now) {

@@ -61,6 +61,8 @@ export default {
   amoeba: 'eine Amöbe',
   thanks: 'Vielen Dank!',
   thanksText: 'Auf Wiedersehen, kommen Sie bald wieder.',
+  stop: 'STOPP',
+  stopped: 'Ich wurde angehalten. Das Personal lässt mich weiterfahren.',
   red: 'rot',
   yellow: 'gelb',
   green: 'grün',

@@ -62,6 +62,8 @@ const words = {
   amoeba: 'amoeba',
   thanks: 'Thank you!',
   thanksText: 'Good-bye, and come again.',
+  stop: 'STOP',
+  stopped: 'I was stopped. Staff let me go on.',
   red: 'red',
   yellow: 'yellow',
   green: 'green',

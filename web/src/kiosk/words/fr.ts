@@ -61,6 +61,8 @@ export default {
   amoeba: 'une amibe',
   thanks: 'Merci !',
   thanksText: 'Au revoir, et à bientôt.',
+  stop: 'STOP',
+  stopped: 'On m’a arrêté. Le personnel me fera repartir.',
   red: 'rouge',
   yellow: 'jaune',
   green: 'vert',
