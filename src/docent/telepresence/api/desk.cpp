@@ -115,7 +115,12 @@ ApiReply Desk::reply_to(ApiServices& services, const ApiRequest& request, const 
   auto document = answer(call, endpoint);
   const bool is_wrong = !document && document.error().reason == ApiFault::wrong_password;
   note_logins(call, endpoint.is_dear ? name_in(request.body) : "", is_wrong);
-  if (!document) return refusal(document.error());
+  if (!document) {
+    ApiRefusal why = document.error();
+    // Where it is stored and why not is nobody's business but an operator's.
+    if (why.reason == ApiFault::not_stored && !call.person.is_at_least(Rank::operator_)) why.about.clear();
+    return refusal(why);
+  }
   return {200, document->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), std::move(call.set_cookie)};
 }
 
