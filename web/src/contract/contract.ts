@@ -292,7 +292,7 @@ export interface ErrorMessage {
   reason: Reason;
 }
 export interface Fault {
-  reason: 'not_found' | 'wrong_method' | 'not_understood' | 'too_large' | 'too_fast' | 'not_allowed' | 'other_site' | 'wrong_csrf' | 'wrong_password' | 'sent_away' | 'too_often' | 'nothing_said' | 'not_stored' | 'must_stand' | 'outdated' | 'busy';
+  reason: 'not_found' | 'wrong_method' | 'not_understood' | 'too_large' | 'too_fast' | 'not_allowed' | 'other_site' | 'wrong_csrf' | 'wrong_password' | 'sent_away' | 'too_often' | 'name_taken' | 'nothing_said' | 'not_stored' | 'must_stand' | 'outdated' | 'busy';
   about: string;
 }
 export interface Me {
@@ -308,6 +308,7 @@ export interface ForumThread {
   written: number;
   latest: number;
   posts: number;
+  rank: 'viewer' | 'visitor' | 'moderator' | 'operator';
 }
 export interface ForumThreads {
   threads: ForumThread[];
@@ -323,6 +324,7 @@ export interface ForumPost {
   state: 'held' | 'shown' | 'hidden';
   reports: number;
   is_own: boolean;
+  rank: 'viewer' | 'visitor' | 'moderator' | 'operator';
 }
 export interface ForumPosts {
   posts: ForumPost[];
@@ -798,6 +800,7 @@ export const documents = {
           "wrong_password",
           "sent_away",
           "too_often",
+          "name_taken",
           "nothing_said",
           "not_stored",
           "must_stand",
@@ -825,6 +828,14 @@ export const documents = {
       "id": "string",
       "is_own": "boolean",
       "name": "string",
+      "rank": {
+        "words": [
+          "viewer",
+          "visitor",
+          "moderator",
+          "operator"
+        ]
+      },
       "reports": "number",
       "state": {
         "words": [
@@ -857,6 +868,14 @@ export const documents = {
       "latest": "number",
       "name": "string",
       "posts": "number",
+      "rank": {
+        "words": [
+          "viewer",
+          "visitor",
+          "moderator",
+          "operator"
+        ]
+      },
       "title": "string",
       "written": "number"
     },

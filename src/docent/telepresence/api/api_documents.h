@@ -28,6 +28,7 @@ enum class ApiFault {
   wrong_password,  ///< or there is no such account
   sent_away,       ///< by a moderator
   too_often,       ///< more posts than one person may write
+  name_taken,      ///< somebody with an account has it, or one that looks like it
   nothing_said,    ///< an empty text, or a thread without a title
   not_stored,      ///< the disk is full or gone
   must_stand,      ///< the robot first; somebody has to press the stop button
@@ -35,9 +36,9 @@ enum class ApiFault {
   busy,
 };
 constexpr auto words_of(ApiFault) {
-  return std::array{"not_found",  "wrong_method", "not_understood", "too_large", "too_fast",  "not_allowed",
-                    "other_site", "wrong_csrf",   "wrong_password", "sent_away", "too_often", "nothing_said",
-                    "not_stored", "must_stand",   "outdated",       "busy"};
+  return std::array{"not_found",    "wrong_method", "not_understood", "too_large", "too_fast",  "not_allowed",
+                    "other_site",   "wrong_csrf",   "wrong_password", "sent_away", "too_often", "name_taken",
+                    "nothing_said", "not_stored",   "must_stand",     "outdated",  "busy"};
 }
 
 }  // namespace docent::telepresence
@@ -93,10 +94,11 @@ struct ForumThread {
   std::string id, title, name;
   double written = 0, latest = 0;
   std::int64_t posts = 0;
+  Rank rank{};  ///< of whoever began it
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("id", d.id), v("title", d.title), v("name", d.name), v("written", d.written), v("latest", d.latest);
-    v("posts", d.posts);
+    v("posts", d.posts), v("rank", d.rank);
   }
 };
 struct ForumThreads {
@@ -115,10 +117,12 @@ struct ForumPost {
   PostState state{};
   std::int64_t reports = 0;  ///< 0 for all but moderators
   bool is_own = false;       ///< the reader wrote it
+  Rank rank{};               ///< the author's
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("id", d.id), v("thread", d.thread), v("name", d.name), v("title", d.title), v("text", d.text);
     v("written", d.written), v("state", d.state), v("reports", d.reports), v("is_own", d.is_own);
+    v("rank", d.rank);
   }
 };
 struct ForumPosts {

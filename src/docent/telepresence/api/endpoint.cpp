@@ -98,6 +98,7 @@ int status_of(ApiFault reason) {
     case ApiFault::wrong_method:
       return 405;
     case ApiFault::not_understood:
+    case ApiFault::name_taken:
     case ApiFault::nothing_said:
       return 400;
     case ApiFault::too_large:

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "docent/telepresence/accounts/look_alikes.h"
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/limits/network.h"
@@ -54,14 +55,28 @@ ApiAnswer<documents::Me> log_in(ApiCall& call, const documents::NewLogin& wish) 
   return begin_login(call, **person, 3600.0 * call.services.params.login_hours);
 }
 
+/// Of somebody with an account, or what looks like it.
+ApiAnswer<bool> is_taken(ApiCall& call, const std::string& name) {
+  const auto accounts = call.services.accounts->list();
+  if (!accounts) return unstored(accounts.error());
+  return std::any_of(accounts->begin(), accounts->end(),
+                     [&](const auto& account) { return looks_like(name, account.name); });
+}
+
 ApiAnswer<documents::Me> name_oneself(ApiCall& call, const documents::NewVisitor& wish) {
   const auto away = call.services.accounts->is_sent_away(call.request.address, call.now);
   if (!away) return unstored(away.error());
   if (*away) return refuse(ApiFault::sent_away);
   const std::string name = clean_name(wish.name);
   if (name.empty()) return refuse(ApiFault::nothing_said);
-  // Who has a name already keeps what they have written.
+  const auto taken = is_taken(call, name);
+  if (!taken) return tl::unexpected<ApiRefusal>(taken.error());
+  if (*taken) return refuse(ApiFault::name_taken);
+  // Who has a name already keeps what they have written, and another name is not trusted for it.
   const bool is_visitor = call.login && call.login->person.rank == Rank::visitor;
+  if (is_visitor && call.login->person.name != name) {
+    if (auto done = call.services.forum->distrust(call.login->person.id); !done) return unstored(done.error());
+  }
   const std::string id = is_visitor ? call.login->person.id : "v-" + make_token().substr(0, 32);
   return begin_login(call, {id, name, Rank::visitor}, 86400.0 * call.services.params.visitor_days);
 }
@@ -83,7 +98,8 @@ documents::ForumPost post_for(const Post& post, const Person& reader) {
           to_seconds(post.written),
           post.state,
           reader.is_at_least(Rank::moderator) ? post.reports : 0,
-          !reader.id.empty() && post.person == reader.id};
+          !reader.id.empty() && post.person == reader.id,
+          post.rank};
 }
 
 ApiAnswer<documents::ForumThreads> list_threads(ApiCall& call, const Nothing& /*wish*/) {
@@ -101,7 +117,7 @@ ApiAnswer<documents::ForumThreads> list_threads(ApiCall& call, const Nothing& /*
   documents::ForumThreads page;
   for (const Thread& thread : *threads)
     page.threads.push_back({thread.first.id, thread.first.title, thread.first.name, to_seconds(thread.first.written),
-                            to_seconds(thread.latest), thread.posts});
+                            to_seconds(thread.latest), thread.posts, thread.first.rank});
   page.is_last = threads->empty();
   return page;
 }
@@ -129,6 +145,11 @@ ApiAnswer<documents::PostWritten> write(ApiCall& call, const documents::NewPost&
   post.thread = thread == call.path.end() ? wish.id : thread->second;
   post.title = wish.title;
   post.text = wish.text;
+  if (call.person.rank == Rank::visitor) {  // an account may be newer than the visitor's name
+    const auto taken = is_taken(call, call.person.name);
+    if (!taken) return tl::unexpected<ApiRefusal>(taken.error());
+    if (*taken) return refuse(ApiFault::name_taken);
+  }
   const auto written = call.services.forum->write(std::move(post), call.person, call.now);
   if (!written) return unstored(written.error());
   switch (*written) {
@@ -147,7 +168,8 @@ ApiAnswer<documents::PostWritten> write(ApiCall& call, const documents::NewPost&
 }
 
 ApiAnswer<Nothing> report(ApiCall& call, const Nothing& /*wish*/) {
-  const auto reported = call.services.forum->report(call.path.at("post"), call.person);
+  const auto reported =
+      call.services.forum->report(call.path.at("post"), call.person, network_of(call.request.address));
   if (!reported) return unstored(reported.error());
   if (!*reported) return refuse(ApiFault::not_found, "no such post");
   return Nothing{};

@@ -26,7 +26,8 @@ struct Post {
   std::string text;    ///< plain, lines separated by \n
   Time written;
   PostState state = PostState::held;
-  std::int64_t reports = 0;  ///< people who find that it should not stand there
+  std::int64_t reports = 0;   ///< networks from which somebody finds that it should not stand there
+  Rank rank = Rank::visitor;  ///< its author's, when it was written
 };
 
 /// A thread as a list shows it.
@@ -78,7 +79,10 @@ class Forum {
   /// @param post  id (a second time: nothing happens), thread (its own id: a new one) and title, text as they came
   [[nodiscard]] Result<Written> write(Post post, const Person& author, Time now);
   /// False: there is no such post.
-  [[nodiscard]] Result<bool> report(const std::string& post, const Person& reader);
+  /// @param network  from which the reader comes: all of one count once
+  [[nodiscard]] Result<bool> report(const std::string& post, const Person& reader, const std::string& network);
+  /// What they write is read by a moderator before it is shown, as a new author's is.
+  [[nodiscard]] Result<void> distrust(const std::string& person);
   /// A moderator has read it. Shown: from now on its author's posts are shown at once. False: there is no such post.
   [[nodiscard]] Result<bool> judge(const std::string& post, PostState verdict);
   /// All that somebody wrote is hidden.

@@ -31,6 +31,8 @@ class TheForum : public testing::Test {
     return ids;
   }
   using Ids = std::vector<std::string>;
+  /// Everybody comes from a network of their own.
+  static std::string from(const std::string& person) { return "network of " + person; }
   const Person eve_{"v-eve", "Eve", Rank::visitor}, bob_{"v-bob", "Bob", Rank::visitor}, viewer_;
   const Person moderator_{"account:grace", "grace", Rank::moderator};
   std::unique_ptr<Database> database_;
@@ -53,17 +55,40 @@ TEST_F(TheForum, AFirstPostWaitsUntilAModeratorHasReadIt) {
   EXPECT_EQ(threads[0].posts, 2);
 }
 
+TEST_F(TheForum, ManyNamesFromOneNetworkReportOnce) {
+  ASSERT_EQ(write("1", "1", moderator_, "Welcome"), Forum::Written::shown);
+  for (int i = 0; i < 10; ++i)
+    EXPECT_TRUE(*forum_->report("1", {"v-" + std::to_string(i), "Eve", Rank::visitor}, "198.51.100.7"));
+  EXPECT_EQ(ids("1", viewer_), Ids{"1"});
+  EXPECT_EQ(forum_->queue()->at(0).reports, 1);
+}
+
+TEST_F(TheForum, PostsKeepTheRankOfTheirAuthor) {
+  ASSERT_EQ(write("1", "1", moderator_, "Welcome"), Forum::Written::shown);
+  ASSERT_EQ(write("2", "1", eve_, "Hello"), Forum::Written::held);
+  EXPECT_EQ(forum_->find("1")->value().rank, Rank::moderator);
+  EXPECT_EQ(forum_->find("2")->value().rank, Rank::visitor);
+}
+
+TEST_F(TheForum, WhoIsDistrustedWaitsAgain) {
+  ASSERT_EQ(write("1", "1", eve_, "Hello"), Forum::Written::held);
+  ASSERT_TRUE(*forum_->judge("1", PostState::shown));
+  ASSERT_EQ(write("2", "1", eve_, "Again"), Forum::Written::shown);
+  ASSERT_TRUE(forum_->distrust(eve_.id));
+  EXPECT_EQ(write("3", "1", eve_, "Under another name"), Forum::Written::held);
+}
+
 TEST_F(TheForum, WhatManyReportIsReadAgain) {
   ASSERT_EQ(write("1", "1", moderator_, "Welcome"), Forum::Written::shown);
-  EXPECT_TRUE(*forum_->report("1", eve_));
-  EXPECT_TRUE(*forum_->report("1", eve_)) << "again: it counts once";
-  EXPECT_TRUE(*forum_->report("1", bob_));
+  EXPECT_TRUE(*forum_->report("1", eve_, from(eve_.id)));
+  EXPECT_TRUE(*forum_->report("1", eve_, from(eve_.id))) << "again: it counts once";
+  EXPECT_TRUE(*forum_->report("1", bob_, from(bob_.id)));
   EXPECT_EQ(forum_->queue()->at(0).reports, 2);
   EXPECT_EQ(ids("1", viewer_), Ids{"1"});
-  EXPECT_TRUE(*forum_->report("1", {"v-ann", "Ann", Rank::visitor}));
+  EXPECT_TRUE(*forum_->report("1", {"v-ann", "Ann", Rank::visitor}, "198.51.100.3"));
   EXPECT_EQ(ids("1", viewer_), Ids{});
-  EXPECT_FALSE(*forum_->report("1", bob_)) << "it is not shown";
-  EXPECT_FALSE(*forum_->report("no such", bob_));
+  EXPECT_FALSE(*forum_->report("1", bob_, from(bob_.id))) << "it is not shown";
+  EXPECT_FALSE(*forum_->report("no such", bob_, from(bob_.id)));
   EXPECT_TRUE(*forum_->judge("1", PostState::shown));
   EXPECT_EQ(forum_->find("1")->value().reports, 0);
   EXPECT_FALSE(*forum_->judge("no such", PostState::hidden));
@@ -93,7 +118,7 @@ TEST_F(TheForum, TextStaysText) {
   EXPECT_EQ(post.text, "<script>alert(1)</script>'; DROP TABLE posts; --\n\nend");
   ASSERT_EQ(write("2", "1", moderator_, std::string(5000, 'x')), Forum::Written::shown);
   EXPECT_EQ(forum_->find("2")->value().text.size(), Forum::kLongestText);
-  EXPECT_EQ(*forum_->report("1' OR '1'='1", bob_), false);
+  EXPECT_EQ(*forum_->report("1' OR '1'='1", bob_, from(bob_.id)), false);
 }
 
 TEST_F(TheForum, IsReadAPageAtATime) {
