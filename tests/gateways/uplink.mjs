@@ -1,5 +1,5 @@
 // A gateway far away: one line of 256 kbit/s from the museum, and viewers who get the pose every 0.3 s and a picture every 5 s.
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createServer, connect } from "node:net";
 import { join } from "node:path";
 import { Caller, Line, check, docent, finish, folder, freePort, museum, pause, start, until, uuid7 } from "./stage.mjs";
@@ -12,7 +12,7 @@ const domain = process.env.DOCENT_TEST_DOMAIN ?? "71";
 
 /** A line that carries so much and no more, with a short queue, as a radio link has: a port that leads to `port`. */
 async function thinLine(port) {
-  const figures = { down: 0, up: 0, isCut: false };
+  const figures = { down: 0, up: 0, isCut: false, seen: "" };
   const lines = new Set();
   const pipe = (from, to, way) => {
     let free = 0; // [ms] when the line is free again
@@ -23,6 +23,7 @@ async function thinLine(port) {
       free = Math.max(free, performance.now()) + (bytes.length / RATE) * 1000;
       setTimeout(() => {
         figures[way] += bytes.length;
+        if (figures.seen.length < 1e6) figures.seen += bytes.toString("latin1");
         queued -= bytes.length;
         if (!figures.isCut) to.write(bytes);
         from.resume();
@@ -46,13 +47,14 @@ async function thinLine(port) {
 
 const state = folder("museum");
 const here = await freePort();
-const robot = start(docent, ["up", "--sim", "--museum", museum, "--crowd", "busy", "--mode", "open", "--domain", domain, "--port", String(here), "--state", state]);
+const door = await freePort();
+const robot = start(docent, ["up", "--set", `web.uplink_port=${door}`, "--sim", "--museum", museum, "--crowd", "busy", "--mode", "open", "--domain", domain, "--port", String(here), "--state", state]);
 await until("the robot", async () => {
   if (robot.code !== null) throw new Error(`docent up ended: ${robot.output}`);
   return fetch(`http://127.0.0.1:${here}/metrics`).then((reply) => reply.ok, () => false);
 }, 60000);
 await until("a picture", () => fetch(`http://127.0.0.1:${here}/camera/scene.jpg`).then((reply) => reply.status === 200), 60000);
-const line = await thinLine(here);
+const line = await thinLine(door);
 const far = await freePort();
 const begun = Date.now();
 const gateway = start(docent, ["gateway", "--from", `127.0.0.1:${line.port}`, "--key", join(state, "uplink.key"), "--port", String(far)]);
@@ -136,15 +138,29 @@ await check("what does not fit the line is refused at once, and the line stays",
   const before = viewers[7].newest.pose.t;
   await until("the line goes on", () => viewers[7].newest.pose.t > before);
 });
-await check("without its key nobody takes the line", async () => {
-  for (const path of ["/uplink?key=", "/uplink?key=00000000000000000000000000000000"]) {
-    const line = new Line(here, path);
-    await line.opened.then(
-      () => Promise.reject(new Error(`${path} was opened`)),
-      () => undefined,
-    );
-  }
+await check("without its key nobody takes the line, and nothing on it can be read", async () => {
   if (readFileSync(join(state, "uplink.key"), "utf8").trim().length !== 32) throw new Error("the key");
+  const wrong = join(folder("wrong"), "uplink.key");
+  writeFileSync(wrong, "00000000000000000000000000000000\n");
+  const thief = start(docent, ["gateway", "--from", `127.0.0.1:${door}`, "--key", wrong, "--port", "0"]);
+  await thief.ended;
+  if (thief.code === 0 || !/another key/.test(thief.output)) throw new Error(`${thief.code}: ${thief.output}`);
+  const plain = new Line(door, "/uplink");
+  await plain.opened.then(
+    () => Promise.reject(new Error("a line without encryption was opened")),
+    () => undefined,
+  );
+  if (["museum.json", '"pose"', '"type"', "Far away"].some((word) => line.seen.includes(word))) throw new Error("the line can be read");
+});
+await check("one holder of the key; the museum says where a second one is", async () => {
+  const second = start(docent, ["gateway", "--from", `127.0.0.1:${door}`, "--key", join(state, "uplink.key"), "--port", "0"]);
+  await second.ended;
+  if (second.code === 0 || !/another gateway holds the line/.test(second.output)) throw new Error(`${second.code}: ${second.output}`);
+  const health = await fetch(`http://127.0.0.1:${here}/api/health`).then((reply) => reply.json());
+  const web = health.modules.find((one) => one.name === "web");
+  if (!/second holder of the key/.test(web.reason)) throw new Error(JSON.stringify(web));
+  const before = viewers[7].newest.pose.t;
+  await until("the first one's line goes on", () => viewers[7].newest.pose.t > before);
 });
 await check("a line that breaks is opened again, and nobody has to do anything", async () => {
   line.cut();

@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -23,7 +26,7 @@ namespace docent::apps::gateway_command {
 namespace {
 
 struct Options {
-  std::string from = "127.0.0.1:8080";
+  std::string from = "127.0.0.1:8090";
   std::string key;
   std::string page;
   telepresence::WebServerParams server;
@@ -32,13 +35,11 @@ struct Options {
 std::atomic<bool> is_ended{false};
 
 /// What does not change while the museum's robot runs: the museum, its map, the exhibits' pictures.
-void fetch_documents(const std::string& host, const std::string& port, telepresence::Site& site) {
-  const auto fetch = [&](const std::string& path) {
-    return value_or_fail(telepresence::fetch_document(host, port, path));
-  };
+void fetch_documents(telepresence::UplinkClient& line, telepresence::Site& site) {
+  const auto fetch = [&](const std::string& path) { return value_or_fail(line.fetch(path)); };
   std::string museum = fetch("/api/museum.json");
   const auto json = nlohmann::json::parse(museum, nullptr, false);
-  if (!json.is_object()) throw CommandFailed{"http://" + host + ":" + port + " is no Docent"};
+  if (!json.is_object()) throw CommandFailed{"the other end of the line is no Docent"};
   for (const auto& exhibit : json.value("exhibits", nlohmann::json::array())) {
     const std::string picture = exhibit.value("picture", std::string{});
     if (picture.starts_with('/')) site.set_file(picture, fetch(picture));
@@ -52,6 +53,33 @@ std::string text_of(const telepresence::ClientMessage& message) {
   return std::visit([](const auto& one) { return telepresence::json_text(one); }, message);
 }
 
+constexpr auto kFirstLine = std::chrono::seconds{15};
+
+/// That something has happened once.
+class Signal {
+ public:
+  void set() {
+    {
+      const std::scoped_lock lock{mutex_};
+      is_set_ = true;
+    }
+    wake_.notify_all();
+  }
+  /// False: not within that time, or somebody ends the program.
+  [[nodiscard]] bool wait_for(std::chrono::seconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    std::unique_lock lock{mutex_};
+    while (!is_set_ && !is_ended && std::chrono::steady_clock::now() < end)
+      wake_.wait_for(lock, std::chrono::milliseconds{100});
+    return is_set_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool is_set_ = false;
+};
+
 /// The server for the crowd and the line to the museum, which need one another.
 class Gateway {
  public:
@@ -59,11 +87,12 @@ class Gateway {
       : site_{std::make_shared<telepresence::Site>()} {
     const auto page = options.page.empty() ? shipped_path("web/dist") : std::filesystem::path{options.page};
     value_or_fail(site_->load_page(page));
-    fetch_documents(host, port, *site_);
     for (const char* camera : {"/camera/robot.jpg", "/camera/scene.jpg"})
       site_->set_changing(camera, "image/jpeg", std::make_shared<const std::string>(), "");
     site_->set_live_document("/metrics", "text/plain; version=0.0.4", [this] { return metrics(); });
     uplink_ = std::make_shared<telepresence::UplinkClient>(host, port, key, from_museum());
+    if (!has_line_.wait_for(kFirstLine)) throw CommandFailed{host + ":" + port + ": " + uplink_->fault()};
+    fetch_documents(*uplink_, *site_);
     telepresence::WebServerHooks hooks;
     hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& message) {
       if (is_ready_ && !uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)}))
@@ -101,7 +130,8 @@ class Gateway {
         site_->set_changing(picture.path, "image/jpeg", std::make_shared<const std::string>(std::move(picture.bytes)),
                             picture.taken);
     };
-    hooks.line = [](bool is_open) {
+    hooks.line = [this](bool is_open) {
+      if (is_open) has_line_.set();
       log_to_stderr(is_open ? LogLevel::info : LogLevel::warning, "gateway",
                     is_open ? "the line to the museum is open" : "the line to the museum is lost");
     };
@@ -115,6 +145,7 @@ class Gateway {
   }
 
   std::shared_ptr<telepresence::Site> site_;
+  Signal has_line_;
   std::atomic<bool> is_ready_{false};
   std::shared_ptr<telepresence::UplinkClient> uplink_;
   std::unique_ptr<telepresence::WebServer> server_;
@@ -127,6 +158,7 @@ void run(const Options& options) {
   while (!key.empty() && key.find_last_not_of("0123456789abcdef") == key.size() - 1) key.pop_back();
   value_or_fail(options.server.validate());
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_ended = true; });
+  if (key.size() < 16) throw CommandFailed{options.key + ": no key of a museum: 32 hexadecimal digits"};
   const Gateway gateway{options.from.substr(0, colon), options.from.substr(colon + 1), key, options};
   std::printf("open http://%s:%d/\n", options.server.address.c_str(), gateway.port());
   std::fflush(stdout);
@@ -139,7 +171,8 @@ void add_gateway_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("gateway", "Serve the Web's visitors from far away, over one thin line from the museum");
-  command->add_option("--from", options->from, "HOST:PORT of the museum's page")->capture_default_str();
+  command->add_option("--from", options->from, "HOST:PORT of the museum's line: web.uplink_port of its robot.yaml")
+      ->capture_default_str();
   command->add_option("--key", options->key, "the museum's file uplink.key, of its state folder")
       ->required()
       ->check(CLI::ExistingFile);

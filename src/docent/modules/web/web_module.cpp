@@ -118,6 +118,8 @@ class WebModule final : public Module {
     for (const std::string& fault : {start_fault_, service_.fault(), cameras_.fault()}) {
       if (!fault.empty()) return {"degraded", fault};
     }
+    if (const std::string second = server_ ? server_->second_holder() : std::string{}; !second.empty())
+      return {"degraded", "a second holder of the key of the line comes from " + second + " and is sent away"};
     return robot_.stop().health();
   }
 

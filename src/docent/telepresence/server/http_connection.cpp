@@ -166,10 +166,6 @@ void HttpConnection::serve() {
     stream_.expires_never();
     return owner_.open_foxglove(stream_.release_socket(), std::move(request));
   }
-  if (std::holds_alternative<OpenUplink>(route)) {
-    stream_.expires_never();
-    return owner_.open_uplink(stream_.release_socket(), std::move(request));
-  }
   HttpAnswer answer = std::get<HttpAnswer>(route);
   if (!answer.reply.taken.empty() && view_of(request[http::field::if_none_match]) == etag_of(answer.reply)) {
     answer.reply.status = 304;

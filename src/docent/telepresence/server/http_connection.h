@@ -35,7 +35,6 @@ struct HttpOwner {
   /// The connection becomes a session.
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const Arrival&)> open_live;
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_foxglove;
-  std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_uplink;
   std::shared_ptr<ApiDesk> desk;     ///< null: there is no /api/v1
   std::vector<std::string> proxies;  ///< addresses whose X-Forwarded-For is believed
   std::vector<std::string> origins;  ///< see role_of

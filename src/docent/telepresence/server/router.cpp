@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::string_view kLive = "/live";
 constexpr std::string_view kOperate = "/operate";
-constexpr std::string_view kUplink = "/uplink?key=";
 constexpr std::string_view kApi = "/api/v1/";
 constexpr std::string_view kFoxglove = "/foxglove";
 constexpr std::string_view kThinLive = "/live?thin";
@@ -34,12 +33,6 @@ Route Router::route(const RouteRequest& request, bool is_full) const {
     if (!role_of(request.opening, origins_, screen_key_))
       return refusal(403, "pages of another site may not steer the robot\n");
     return OpenOperate{};
-  }
-  if (request.is_upgrade && request.target.starts_with(kUplink)) {
-    // A program, no page; with the key of the file.
-    const bool may = request.opening.origin.empty() && is_same_key(request.target.substr(kUplink.size()), uplink_key_);
-    if (!may) return refusal(403, "this is not the gateway far away\n");
-    return OpenUplink{};
   }
   if (request.is_upgrade) {
     const bool is_screen = request.target.starts_with(kLiveOfScreen) && request.target != kLiveOfScreen;

@@ -37,9 +37,7 @@ struct CallApi {};
 struct OpenOperate {};
 /// The connection becomes a client of the Foxglove protocol.
 struct OpenFoxglove {};
-/// The connection becomes the line to a gateway far away.
-struct OpenUplink {};
-using Route = std::variant<HttpAnswer, OpenLive, OpenFoxglove, CallApi, OpenOperate, OpenUplink>;
+using Route = std::variant<HttpAnswer, OpenLive, OpenFoxglove, CallApi, OpenOperate>;
 
 /// Paths to handlers: everything that can be fetched is the site's; /live is the channel of those who watch, /operate
 /// that of operators; /api/v1 is answered by the desk; /foxglove, for programs of
@@ -48,13 +46,8 @@ class Router {
  public:
   /// @param origins  hosts besides the server's own whose pages may open the live channel
   /// @param screen_key  see role_of; /live?screen=KEY
-  /// @param uplink_key  of a gateway far away, /uplink?key=KEY; empty: there may be none
-  Router(std::shared_ptr<const Site> site, std::vector<std::string> origins, std::string screen_key,
-         std::string uplink_key = {})
-      : site_{std::move(site)},
-        origins_{std::move(origins)},
-        screen_key_{std::move(screen_key)},
-        uplink_key_{std::move(uplink_key)} {}
+  Router(std::shared_ptr<const Site> site, std::vector<std::string> origins, std::string screen_key)
+      : site_{std::move(site)}, origins_{std::move(origins)}, screen_key_{std::move(screen_key)} {}
 
   /// @param is_full  the live channel takes nobody more
   [[nodiscard]] Route route(const RouteRequest& request, bool is_full) const;
@@ -63,7 +56,6 @@ class Router {
   std::shared_ptr<const Site> site_;
   std::vector<std::string> origins_;
   std::string screen_key_;
-  std::string uplink_key_;
 };
 
 /// A few words of text, after which the connection is closed.

@@ -4,6 +4,8 @@
 #include <boost/asio/post.hpp>
 #include <chrono>
 
+#include "docent/telepresence/uplink/uplink_door.h"
+
 namespace docent::telepresence {
 namespace {
 
@@ -12,31 +14,29 @@ constexpr std::size_t kMostAnswers = 2000;  // that wait; an uplink that lets mo
 constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
 
-WebSocketManner manner_of_uplink(const WebServerParams& params) {
-  return {.longest_message = kLongestToMuseum,
-          .idle_timeout = std::chrono::milliseconds{static_cast<int>(params.idle_timeout_s * 1e3)},
-          .compresses = true};
-}
-
 }  // namespace
 
 UplinkSession::UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const WebServerParams& params,
-                             boost::asio::ip::tcp::socket socket, std::uint64_t number)
+                             std::unique_ptr<WebSocket> line, std::uint64_t number)
     : sessions_{sessions},
       owner_{owner},
       number_{number},
       picture_s_{params.uplink_picture_s},
       piece_bytes_{static_cast<std::size_t>(std::max(1, params.uplink_picture_bytes_per_s / 10))},
-      socket_{std::move(socket), manner_of_uplink(params)},
-      timer_{socket_.executor()} {
+      line_{std::move(line)},
+      timer_{line_->executor()} {
   ++sessions_.connections;
 }
 
-void UplinkSession::run(HttpRequest request, std::uint32_t slots) {
+WebSocketManner UplinkSession::manner() {
+  return {.longest_message = kLongestToMuseum, .idle_timeout = kSilentLine, .compresses = true};
+}
+
+void UplinkSession::run(std::uint32_t slots) {
   stale_ = slots & wanted();
-  socket_.accept(std::move(request), [self = shared_from_this()](WebSocket::Error error) {
-    if (error) return self->leave();
+  line_->accept([self = shared_from_this()](WebSocket::Error error) {
     self->is_open_ = true;
+    if (error) return self->leave();
     self->flush();
     self->feed_pictures();
     self->read();
@@ -77,7 +77,7 @@ void UplinkSession::flush() {
     sending_ = encode(UplinkSlot{last_slot_, *text});
   }
   is_writing_ = true;
-  socket_.write(sending_, false, [self = shared_from_this()](WebSocket::Error error) {
+  line_->write(sending_, false, [self = shared_from_this()](WebSocket::Error error) {
     self->is_writing_ = false;
     if (error) return self->leave();
     ++self->sessions_.messages_out;
@@ -110,7 +110,7 @@ void UplinkSession::feed_pictures() {
 }
 
 void UplinkSession::read() {
-  socket_.read([self = shared_from_this()](WebSocket::Error error, const std::string& frame, bool /*is_text*/) {
+  line_->read([self = shared_from_this()](WebSocket::Error error, const std::string& frame, bool /*is_text*/) {
     if (error) return self->leave();
     ++self->sessions_.messages_in;
     auto message = decode_to_museum(frame);
@@ -136,12 +136,16 @@ void UplinkSession::hear(ToMuseum message) {
     return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, "", "", "uplink"}, *parsed);
   }
   auto& call = std::get<UplinkCall>(message);
+  if (!call.request.target.starts_with("/api/v1")) {  // what does not change: the museum, its map and pictures
+    const SiteReply document = owner_.site->get(call.request.target);
+    return say(UplinkReply{call.call, {document.status, document.body ? *document.body : std::string{}, ""}});
+  }
   if (!owner_.desk || *owner_.is_closing) return say(UplinkReply{call.call, {503, "{}", ""}});
   call.request.is_far = true;
   ++*owner_.asked;
   owner_.desk->take(std::move(call.request), [self = shared_from_this(), number = call.call](ApiReply reply) mutable {
     std::atomic<int>& asked = *self->owner_.asked;
-    const auto executor = self->socket_.executor();
+    const auto executor = self->line_->executor();
     boost::asio::post(executor, [self = std::move(self), number, reply = std::move(reply)]() mutable {
       self->say(UplinkReply{number, std::move(reply)});
     });

@@ -32,19 +32,22 @@ struct UplinkOwner {
 /// operation of its is under way.
 class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
  public:
+  /// @param line  its other end has the key
   UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const WebServerParams& params,
-                boost::asio::ip::tcp::socket socket, std::uint64_t number);
+                std::unique_ptr<WebSocket> line, std::uint64_t number);
+  /// How its line behaves.
+  [[nodiscard]] static WebSocketManner manner();
   ~UplinkSession() { --sessions_.connections; }
   UplinkSession(const UplinkSession&) = delete;
   UplinkSession& operator=(const UplinkSession&) = delete;
 
   /// Accepts the upgrade and sends the `slots` (a bit each) that have a value.
-  void run(HttpRequest request, std::uint32_t slots);
+  void run(std::uint32_t slots);
   /// The slot has a new value.
   void mark(std::size_t slot);
   /// To a viewer of the far gateway.
   void answer(std::uint64_t viewer, const std::string& text) { say(UplinkAnswer{viewer, text}); }
-  void drop() { socket_.drop(); }
+  void drop() { line_->drop(); }
 
  private:
   void read();
@@ -62,7 +65,7 @@ class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
   const std::uint64_t number_;
   const double picture_s_;
   const std::size_t piece_bytes_;
-  WebSocket socket_;  // with compression: it is thin
+  const std::unique_ptr<WebSocket> line_;  // with compression: it is thin
   boost::asio::steady_timer timer_;
   std::uint32_t stale_ = 0;  ///< slots that have a newer value
   std::size_t last_slot_ = 0;

@@ -17,6 +17,7 @@
 #include "docent/telepresence/server/session.h"
 #include "docent/telepresence/server/uplink_session.h"
 #include "docent/telepresence/server/web_server.h"
+#include "docent/telepresence/uplink/uplink_door.h"
 
 namespace docent::telepresence {
 namespace {
@@ -45,9 +46,13 @@ struct WebServer::Core {
   Core(const WebServerParams& given, std::shared_ptr<const Site> site, WebServerHooks the_hooks)
       : params{given},
         hooks{std::move(the_hooks)},
-        router{site, given.origins, hooks.screen_key, hooks.uplink_key},
+        router{site, given.origins, hooks.screen_key},
         foxglove{hooks.foxglove},
         acceptor{io},
+        uplink_door{io, UplinkSession::manner(),
+                    [this](std::unique_ptr<WebSocket> line, const std::string& address) {
+                      open_uplink(std::move(line), address);
+                    }},
         timer{io},
         accept_timer{io} {
     sessions.message = hooks.message;
@@ -76,9 +81,6 @@ struct WebServer::Core {
     uplink_owner.desk = hooks.desk;
     uplink_owner.asked = &http.asked;
     uplink_owner.is_closing = &http.is_closing;
-    http.open_uplink = [this](tcp::socket socket, HttpRequest request) {
-      open_uplink(std::move(socket), std::move(request));
-    };
     http.open_foxglove = [this](tcp::socket socket, HttpRequest request) {
       open_foxglove(std::move(socket), std::move(request));
     };
@@ -90,7 +92,7 @@ struct WebServer::Core {
   void end_login(const std::string& login);
   void open_live(tcp::socket socket, HttpRequest request, const Arrival& how);
   void open_foxglove(tcp::socket socket, HttpRequest request);
-  void open_uplink(tcp::socket socket, HttpRequest request);
+  void open_uplink(std::unique_ptr<WebSocket> line, const std::string& address);
   [[nodiscard]] std::uint32_t slots_with_a_value() const;
   void tick();
   void flush_all();
@@ -107,6 +109,7 @@ struct WebServer::Core {
   UplinkOwner uplink_owner;
   asio::io_context io{1};  // after the counters: its last handlers still count down
   tcp::acceptor acceptor;
+  UplinkDoor uplink_door;
   asio::steady_timer timer;
   asio::steady_timer accept_timer;
   // Only the server's thread touches these.
@@ -118,11 +121,13 @@ struct WebServer::Core {
   ViewerId next_viewer = 1;
   std::size_t next_group = 0;
   bool is_ticking = false;
+  SecondHolder second_holder;
   std::thread thread;
 };
 
 Result<void> WebServerParams::validate() const {
   if (port < 0 || port > 65535) return fail("web.port must be 0 to 65535");
+  if (uplink_port < 0 || uplink_port > 65535) return fail("web.uplink_port must be 0 to 65535");
   if (max_connections < 1) return fail("web.max_connections must be at least 1");
   if (foxglove_clients < 0 || foxglove_clients > 100) return fail("web.foxglove_clients must be 0 to 100");
   if (connections_of_address < 1) return fail("web.connections_of_address must be at least 1");
@@ -204,17 +209,18 @@ std::uint32_t WebServer::Core::slots_with_a_value() const {
   return slots;
 }
 
-void WebServer::Core::open_uplink(tcp::socket socket, HttpRequest request) {
-  constexpr std::size_t kMostUplinks = 4;
-  if (uplinks.size() >= kMostUplinks) return;  // it closes
-  constexpr int kLittle = 8192;                // what the kernel holds is old before it has left
-  beast::error_code ignored;
-  socket.set_option(tcp::no_delay{true}, ignored);
-  socket.set_option(asio::socket_base::send_buffer_size{kLittle}, ignored);
+void WebServer::Core::open_uplink(std::unique_ptr<WebSocket> line, const std::string& address) {
+  // One holder of the key. A line that was cut is given up within seconds; whoever is sent away for longer is a second
+  // one.
+  if (!uplinks.empty()) {
+    second_holder.sent_away(address, SecondHolder::Clock::now());
+    return line->drop();
+  }
+  second_holder.came_in();
   const std::uint64_t number = next_uplink++;
-  const auto session = std::make_shared<UplinkSession>(sessions, uplink_owner, params, std::move(socket), number);
+  const auto session = std::make_shared<UplinkSession>(sessions, uplink_owner, params, std::move(line), number);
   uplinks.emplace(number, session);
-  session->run(std::move(request), slots_with_a_value());
+  session->run(slots_with_a_value());
 }
 
 void WebServer::Core::open_foxglove(tcp::socket socket, HttpRequest request) {
@@ -261,6 +267,11 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& param
   if (!error) core->acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error == asio::error::address_in_use) return fail(name + ": the port is in use by another program");
   if (error) return fail(name + ": cannot listen: " + error.message());
+  if (params.uplink_port != 0 && !core->hooks.uplink_key.empty()) {
+    const tcp::endpoint door{address, static_cast<std::uint16_t>(params.uplink_port)};
+    if (auto open = core->uplink_door.listen(door, core->hooks.uplink_key); !open)
+      return tl::unexpected<Error>(open.error());
+  }
   core->accept();
   core->thread = std::thread{[raw = core.get()] { raw->io.run(); }};
   if (core->hooks.desk) {
@@ -288,6 +299,8 @@ WebServer::~WebServer() {
     group.clear();
   }
 }
+
+std::string WebServer::second_holder() const { return core_->second_holder.address(SecondHolder::Clock::now()); }
 
 int WebServer::port() const { return core_->acceptor.local_endpoint().port(); }
 

@@ -27,6 +27,7 @@ struct WebServerParams {
   double steering_per_second = 30.0;  ///< messages of one operator
   int max_message_bytes = 4096;       ///< a longer one ends the connection
   int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
+  int uplink_port = 0;                ///< where an encrypted line to a gateway far away comes in; 0: there is none
   double uplink_picture_s = 5.0;      ///< between two pictures of a camera for a gateway far away
   int uplink_picture_bytes_per_s = 12000;   ///< of its line, for pictures
   double idle_timeout_s = 30.0;             ///< a viewer who answers no ping for so long is gone
@@ -51,6 +52,7 @@ struct WebServerParams {
     v("steering_per_second", steering_per_second);
     v("max_message_bytes", max_message_bytes);
     v("send_buffer_bytes", send_buffer_bytes);
+    v("uplink_port", uplink_port);
     v("uplink_picture_s", uplink_picture_s);
     v("uplink_picture_bytes_per_s", uplink_picture_bytes_per_s);
     v("idle_timeout_s", idle_timeout_s);
@@ -89,8 +91,8 @@ struct WebServerHooks {
   std::function<void(const Caller&, const ClientMessage&)> message;
   std::function<void(const std::string& address)> arrived = {};  ///< somebody opened the live channel
   std::function<void(const Caller&)> left = {};                  ///< an operator is gone
-  std::string screen_key = {};                 ///< with which the robot's own screen comes; empty: it has none
-  std::string uplink_key = {};                 ///< of a gateway far away; empty: there may be none
+  std::string screen_key = {};  ///< with which the robot's own screen comes; empty: it has none
+  std::string uplink_key = {};  ///< of a gateway far away, at params.uplink_port; empty: there may be none
   std::shared_ptr<FoxgloveHub> foxglove = {};  ///< what it shows at /foxglove; null: nothing
   std::shared_ptr<ApiDesk> desk = {};          ///< who answers /api/v1 and admits operators; null: nobody
 };
@@ -123,6 +125,8 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();  ///< closes everything and ends the thread
 
+  /// From where a second holder of the uplink's key comes; empty: nobody does. Any thread.
+  [[nodiscard]] std::string second_holder() const;
   [[nodiscard]] int port() const;
   /// Any thread: the new value of a slot, for all viewers. @pre 0 <= slot < kSlots
   void broadcast(int slot, std::string text);

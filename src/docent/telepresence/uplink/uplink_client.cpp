@@ -6,10 +6,11 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 #include <chrono>
 #include <deque>
+#include <future>
 #include <map>
+#include <mutex>
 #include <thread>
 
 #include "docent/telepresence/uplink/uplink_client.h"
@@ -20,7 +21,6 @@ namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-namespace http = beast::http;
 using asio::ip::tcp;
 
 constexpr auto kPatience = std::chrono::seconds{10};
@@ -37,7 +37,7 @@ ApiReply too_long() { return {413, R"({"reason":"not_understood","about":"too lo
 class UplinkClient::Impl {
  public:
   Impl(std::string host, std::string port, std::string key, UplinkHooks hooks)
-      : host_{std::move(host)}, port_{std::move(port)}, key_{std::move(key)}, hooks_{std::move(hooks)} {
+      : host_{std::move(host)}, port_{std::move(port)}, keys_{pre_shared(key)}, hooks_{std::move(hooks)} {
     asio::post(io_, [this] {
       connect();
       look();
@@ -74,6 +74,10 @@ class UplinkClient::Impl {
       flush();
     });
   }
+  [[nodiscard]] std::string fault() const {
+    const std::scoped_lock lock{fault_mutex_};
+    return fault_;
+  }
   void close() {
     is_closed_ = true;
     asio::post(io_, [this] { give_up_calls(); });
@@ -89,11 +93,11 @@ class UplinkClient::Impl {
     auto resolved = std::make_shared<tcp::resolver>(io_);
     resolved->async_resolve(host_, port_,
                             [this, resolved](beast::error_code error, const tcp::resolver::results_type& at) {
-                              if (error) return lose();
+                              if (error) return lose(error.message());
                               auto stream = std::make_shared<beast::tcp_stream>(io_);
                               stream->expires_after(kPatience);
                               stream->async_connect(at, [this, stream](beast::error_code failed, const tcp::endpoint&) {
-                                if (failed) return lose();
+                                if (failed) return lose(failed.message());
                                 stream->expires_never();
                                 greet(stream->release_socket());
                               });
@@ -103,17 +107,21 @@ class UplinkClient::Impl {
     socket_.emplace(
         std::move(socket),
         WebSocketManner{
-            .longest_message = kLargestFrame, .idle_timeout = kPatience, .pings = false, .compresses = true});
-    socket_->greet(host_ + ":" + port_, "/uplink?key=" + key_, [this](beast::error_code error) {
-      if (error) return lose();
-      is_open_ = true;
-      if (hooks_.line) hooks_.line(true);
-      read();
+            .longest_message = kLargestFrame, .idle_timeout = kPatience, .pings = false, .compresses = true},
+        keys_);
+    socket_->secure(false, [this](beast::error_code error) {
+      if (error) return lose("the other end has another key, or is no uplink_port: " + error.message());
+      socket_->greet(host_ + ":" + port_, "/uplink", [this](beast::error_code failed) {
+        if (failed) return lose("sent away: another gateway holds the line (" + failed.message() + ")");
+        is_open_ = true;
+        tell_line(true);
+        read();
+      });
     });
   }
   void read() {
     socket_->read([this](beast::error_code error, const std::string& frame, bool /*is_text*/) {
-      if (error) return lose();
+      if (error) return lose(error.message());
       if (auto message = decode_from_museum(frame)) hear(std::move(*message));
       read();
     });
@@ -141,15 +149,19 @@ class UplinkClient::Impl {
     --waiting_count_;
     socket_->write(sending_, false, [this](beast::error_code error) {
       is_writing_ = false;
-      if (error) return lose();
+      if (error) return lose(error.message());
       flush();
     });
   }
   /// The line is down; tries again in a while. Reading and writing may both say so.
-  void lose() {
+  void lose(const std::string& why) {
     if (is_lost_) return;
     is_lost_ = true;
-    if (is_open_.exchange(false) && hooks_.line) hooks_.line(false);
+    {
+      const std::scoped_lock lock{fault_mutex_};
+      fault_ = why;
+    }
+    if (is_open_.exchange(false)) tell_line(false);
     waiting_.clear();
     waiting_count_ = 0;
     give_up_calls();
@@ -161,6 +173,9 @@ class UplinkClient::Impl {
       is_writing_ = false;
       connect();
     });
+  }
+  void tell_line(bool is_open) const {
+    if (hooks_.line) hooks_.line(is_open);
   }
   void give_up_calls() {
     const auto calls = std::exchange(calls_, {});
@@ -178,7 +193,8 @@ class UplinkClient::Impl {
     });
   }
 
-  const std::string host_, port_, key_;
+  const std::string host_, port_;
+  const std::shared_ptr<boost::asio::ssl::context> keys_;
   const UplinkHooks hooks_;
   asio::io_context io_{1};
   asio::steady_timer timer_{io_}, look_timer_{io_};
@@ -194,6 +210,8 @@ class UplinkClient::Impl {
   PictureJoiner joiner_;
   bool is_writing_ = false;
   bool is_lost_ = false;
+  mutable std::mutex fault_mutex_;
+  std::string fault_ = "not opened yet";
   std::thread thread_;
 };
 
@@ -207,33 +225,24 @@ void UplinkClient::take(ApiRequest request, std::function<void(ApiReply)> answer
   impl_->take(std::move(request), std::move(answer));
 }
 
+std::string UplinkClient::fault() const { return impl_->fault(); }
+
+Result<std::string> UplinkClient::fetch(const std::string& path) {
+  ApiRequest request;
+  request.method = "GET";
+  request.target = path;
+  std::promise<ApiReply> promise;
+  take(std::move(request), [&promise](ApiReply reply) { promise.set_value(std::move(reply)); });
+  ApiReply reply = promise.get_future().get();
+  if (reply.status == 503) return fail(path + ": " + fault());
+  if (reply.status != 200) return fail(path + ": " + std::to_string(reply.status));
+  return std::move(reply.body);
+}
+
 void UplinkClient::close() { impl_->close(); }
 
 void UplinkClient::admit(std::string /*token*/, std::function<void(std::optional<Admission>)> answer) {
   answer(std::nullopt);  // who steers must be nearer than this
-}
-
-Result<std::string> fetch_document(const std::string& host, const std::string& port, const std::string& path) {
-  const std::string name = "http://" + host + ":" + port + path;
-  asio::io_context io;
-  beast::error_code error;
-  tcp::resolver resolver{io};
-  const auto at = resolver.resolve(host, port, error);
-  if (error) return fail(name + ": " + error.message());
-  beast::tcp_stream stream{io};
-  stream.connect(at, error);
-  if (error) return fail(name + ": " + error.message());
-  http::request<http::empty_body> request{http::verb::get, path, 11};
-  request.set(http::field::host, host + ":" + port);
-  http::write(stream, request, error);
-  if (error) return fail(name + ": " + error.message());
-  beast::flat_buffer buffer;
-  http::response_parser<http::string_body> parser;
-  parser.body_limit(64U << 20U);
-  http::read(stream, buffer, parser, error);
-  if (error) return fail(name + ": " + error.message());
-  if (parser.get().result() != http::status::ok) return fail(name + ": " + std::to_string(parser.get().result_int()));
-  return std::move(parser.get().body());
 }
 
 }  // namespace docent::telepresence

@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 
+#include "docent/telepresence/web_socket/pre_shared_key.h"
+
 namespace docent::telepresence {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
@@ -40,9 +42,17 @@ class WebSocket {
   using Heard = std::function<void(Error, std::string message, bool is_text)>;
 
   WebSocket(boost::asio::ip::tcp::socket socket, const WebSocketManner& manner);
+  /// On an encrypted line, which begins with `secure`.
+  /// @param keys  see pre_shared
+  WebSocket(boost::asio::ip::tcp::socket socket, const WebSocketManner& manner,
+            std::shared_ptr<boost::asio::ssl::context> keys);
 
+  /// Both ends prove to one another that they hold the same key. Error: one does not, or takes too long.
+  void secure(bool is_server, Done done);
   /// A server's end accepts the upgrade that `request` asks for.
   void accept(HttpRequest request, Done done);
+  /// Likewise, where nobody has read the request yet.
+  void accept(Done done);
   /// A client's end asks for the upgrade. @param target  path and query
   void greet(const std::string& host, const std::string& target, Done done);
   /// @param message  stays where it is until it was sent
@@ -58,7 +68,9 @@ class WebSocket {
   [[nodiscard]] static bool is_too_long(const Error& error);
 
  private:
-  struct Stream;
+  class Stream;
+  template <class Next>
+  class StreamOn;
   std::shared_ptr<Stream> stream_;
 };
 

@@ -62,6 +62,57 @@ class WebSocketTest : public testing::Test {
   std::string target_;
 };
 
+/// Both ends of an encrypted line, with their keys. @returns what came of it at the server's and the client's
+std::pair<WebSocket::Error, WebSocket::Error> secured(boost::asio::io_context& io, const std::string& server_key,
+                                                      const std::string& client_key) {
+  tcp::acceptor acceptor{io, {boost::asio::ip::address_v4::loopback(), 0}};
+  tcp::socket near{io}, far{io};
+  far.connect(acceptor.local_endpoint());
+  acceptor.accept(near);
+  WebSocket server{std::move(near), {}, pre_shared(server_key)};
+  WebSocket client{std::move(far), {}, pre_shared(client_key)};
+  std::optional<WebSocket::Error> at_server, at_client;
+  std::string heard;
+  server.secure(true, [&](WebSocket::Error error) {
+    if (error) return void(at_server = error);
+    server.accept([&](WebSocket::Error failed) {
+      if (failed) return void(at_server = failed);
+      server.read([&](WebSocket::Error lost, std::string message, bool) {
+        at_server = lost;
+        heard = std::move(message);
+      });
+    });
+  });
+  client.secure(false, [&](WebSocket::Error error) {
+    if (error) return void(at_client = error);
+    client.greet("museum:80", "/uplink", [&](WebSocket::Error failed) {
+      if (failed) return void(at_client = failed);
+      client.write("hello", false, [&](WebSocket::Error lost) { at_client = lost; });
+    });
+  });
+  io.restart();
+  while (!(at_server && at_client) && io.run_one_for(std::chrono::seconds{20}) > 0) {
+  }
+  EXPECT_TRUE(at_server && at_client);
+  EXPECT_EQ(heard, at_server && !*at_server ? "hello" : "");
+  server.drop();
+  client.drop();
+  io.restart();
+  io.run_for(std::chrono::seconds{5});
+  return {at_server.value_or(WebSocket::Error{}), at_client.value_or(WebSocket::Error{})};
+}
+
+TEST(EncryptedLine, IsOpenedByWhoeverHasTheKeyAlone) {
+  boost::asio::io_context io{1};
+  const std::string key = "0123456789abcdef0123456789abcdef";
+  const auto [server, client] = secured(io, key, key);
+  EXPECT_FALSE(server) << server.message();
+  EXPECT_FALSE(client) << client.message();
+  const auto [refused, sent_away] = secured(io, key, "0123456789abcdef0123456789abcdeF");
+  EXPECT_TRUE(refused);
+  EXPECT_TRUE(sent_away);
+}
+
 TEST_F(WebSocketTest, MessagesComeWholeBothWays) {
   open({});
   EXPECT_FALSE(*greeted_);
