@@ -1,4 +1,4 @@
-"""Every module killed and stopped where it hurts, in a robot of processes over DDS."""
+"""Every module killed, stopped and slowed to a tenth where it hurts, in a robot of processes over DDS."""
 import hashlib
 import json
 import os
@@ -32,14 +32,14 @@ def trials_of(simulations, seed, is_slice, which=()):
 
 def protocol(simulations, options):
     result = trials_of(simulations, options.first_seed, options.slice)
-    header = ["module", "kills", "back s: median", "worst", "stops", "stood s: worst", "contacts", "faults"]
+    header = ["module", "kills", "back s: median", "worst", "stops", "stood s: worst", "slowed", "contacts", "faults"]
     rows = []
     for module in dict.fromkeys(trial["module"] for trial in result["trials"]):
         trials = [trial for trial in result["trials"] if trial["module"] == module]
         kills = sorted(99.0 if t["back_s"] is None else t["back_s"] for t in trials if t["signal"] == "kill")
         stood = [t["stood_s"] for t in trials if t["stood_s"] is not None]
         rows.append([module, len(kills), kills[len(kills) // 2] if kills else "-", kills[-1] if kills else "-",
-                     sum(t["signal"] == "stop" for t in trials), max(stood) if stood else "-",
+                     sum(t["signal"] == "stop" for t in trials), max(stood) if stood else "-", sum(t["signal"] == "slow" for t in trials),
                      sum(t["contacts"] for t in trials), "; ".join(t["fault"] for t in trials if t["fault"]) or "none"])
     print("\n## by module\n")
     print_table(header, rows)

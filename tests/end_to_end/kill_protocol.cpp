@@ -8,7 +8,7 @@
 // Kills and stops the modules of a running robot, one after the other, where it hurts, and looks at what happens:
 // nothing is touched, the robot stands when it must, the module is back with current state, the tour goes on.
 //
-//   docent_kill_protocol [--modules a,b] [--signals kill,stop] [--situations driving,hazard,explaining,asking]
+//   docent_kill_protocol [--modules a,b] [--signals kill,stop,slow] [--situations driving,hazard,explaining,asking]
 //                        [--kills N] [--museum DIR] [--crowd LEVEL] [--seed N] [--domain N] [--port N]
 //                        [--report FILE.json] [--slice]
 
@@ -18,9 +18,10 @@ namespace {
 constexpr double kMedianBack = 2.0;  // [s] of the kills of one module
 
 struct Options : KillTrialOptions {
-  std::vector<std::string> modules{"avoid",     "robot",  "localize", "hazards", "plan", "map",   "mission",
-                                   "executive", "people", "sound",    "head",    "web",  "record"};
-  std::vector<std::string> signals{"kill", "stop"};
+  std::vector<std::string> modules{"avoid", "robot",   "localize", "calibrate", "hazards",     "plan",
+                                   "map",   "mission", "people",   "executive", "sound",       "buttons",
+                                   "head",  "web",     "record",   "visualize", "scene_camera"};
+  std::vector<std::string> signals{"kill", "stop", "slow"};
   std::vector<std::string> situations{"driving", "hazard", "explaining"};
   int kills = 5;  ///< of each module altogether
   std::string report;

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <fstream>
 #include <set>
+#include <stop_token>
+#include <thread>
 
 #include "docent/geometry/polygon.h"
 
@@ -157,6 +159,19 @@ void KillTrials::hold_up(int pid, KillTrial& trial) {
       kStop + 1s));
 }
 
+/// Leaves a process a tenth of the time, for as long as others are stopped.
+void KillTrials::slow_down(int pid) {
+  const std::jthread brake{[pid](const std::stop_token& end) {
+    while (!end.stop_requested()) {
+      kill(pid, SIGSTOP);
+      std::this_thread::sleep_for(90ms);
+      kill(pid, SIGCONT);
+      std::this_thread::sleep_for(10ms);
+    }
+  }};
+  static_cast<void>(wait_for([end = Clock::now() + kStop] { return Clock::now() >= end; }, kStop + 1s));
+}
+
 /// Whether the robot goes on: another exhibit is explained, or at least three metres are driven.
 bool KillTrials::goes_on(const RobotWatch::Snapshot& before) {
   return wait_for(
@@ -192,6 +207,8 @@ KillTrial KillTrials::run(const std::string& module, const std::string& signal, 
   trial.speed = std::abs(before.truth.linear);
   if (was_killed) {
     kill(pid, SIGKILL);
+  } else if (signal == "slow") {
+    slow_down(pid);
   } else {
     hold_up(pid, trial);
   }
@@ -203,7 +220,7 @@ KillTrial KillTrials::run(const std::string& module, const std::string& signal, 
   if (goes_on(before)) trial.went_on_s = Seconds{Clock::now() - since}.count();
   trial.contacts = watch_.report().contacts.all() - contacts;
   if (trial.contacts > 0) trial.fault = "touched something";
-  if (!was_killed && must_stand_without(module) && (!trial.stood_s || !trial.stood_still))
+  if (signal == "stop" && must_stand_without(module) && (!trial.stood_s || !trial.stood_still))
     trial.fault = "did not stand";
   if (!trial.back_s || *trial.back_s > kWorstBack) trial.fault = "not back in time";
   if (!trial.went_on_s) {

@@ -62,6 +62,7 @@ class KillTrials {
                              RobotWatch::Clock::time_point since, const RobotWatch::Snapshot& before) const;
   void show();
   void hold_up(int pid, KillTrial& trial);
+  void slow_down(int pid);
   [[nodiscard]] bool goes_on(const RobotWatch::Snapshot& before);
   [[nodiscard]] bool wait_for(const std::function<bool()>& done, std::chrono::duration<double> patience);
 
