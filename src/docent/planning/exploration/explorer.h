@@ -12,6 +12,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/planning/exploration/standing_room.h"
 
 namespace docent::planning {
 
@@ -120,14 +121,24 @@ class Explorer {
   };
   struct Costs {
     OccupancyGrid coarse;
+    StandingRoom room;
     std::vector<float> costs;         ///< [rows * columns] of planning cells
     std::vector<CellIndex> frontier;  ///< unknown, beside free floor, wide enough
     std::vector<CellIndex> gaps;      ///< the same, too narrow by what is known, but perhaps only seen badly
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
-  [[nodiscard]] bool may_stand(Point2 place, Clearance clearance) const;
-  [[nodiscard]] Clearance clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const;
+  /// What ways keep off: everywhere, and near the robot, which may stand nearer to something than it plans to and must
+  /// get away. Where it stands well both are the same, so it comes into no place from which it finds no way back.
+  struct Margins {
+    Clearance far, near;         ///< `hazards` without `mark_margin_`
+    double most_hazards = 0.0;   ///< [m] near the robot, `mark_margin_` and all
+  };
+  [[nodiscard]] Margins margins(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const;
+  [[nodiscard]] bool is_clear_of_marks(Point2 place, double hazards, double most_hazards) const;
   [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing = false) const;
+  [[nodiscard]] StandingRoom::Place place_in(const StandingRoom& room, CellIndex cell) const;
+  [[nodiscard]] float cost_of(double spare, double walls) const;
+  [[nodiscard]] std::vector<Point2> places_of(const Costs& known, std::span<const CellIndex> cells) const;
   [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
