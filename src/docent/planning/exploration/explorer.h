@@ -130,8 +130,8 @@ class Explorer {
   /// What ways keep off: everywhere, and near the robot, which may stand nearer to something than it plans to and must
   /// get away. Where it stands well both are the same, so it comes into no place from which it finds no way back.
   struct Margins {
-    Clearance far, near;         ///< `hazards` without `mark_margin_`
-    double most_hazards = 0.0;   ///< [m] near the robot, `mark_margin_` and all
+    Clearance far, near;        ///< `hazards` without `mark_margin_`
+    double most_hazards = 0.0;  ///< [m] near the robot, `mark_margin_` and all
   };
   [[nodiscard]] Margins margins(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const;
   [[nodiscard]] bool is_clear_of_marks(Point2 place, double hazards, double most_hazards) const;
