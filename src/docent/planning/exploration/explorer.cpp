@@ -140,8 +140,12 @@ bool Explorer::is_clear_of_marks(Point2 place, double hazards, double most_hazar
     if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;
     if (distance(hazard.outline, place) < keep) return false;
   }
-  return std::none_of(blocked_.begin(), blocked_.end(),
-                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
+  return true;
+}
+
+bool Explorer::is_blocked(Point2 place) const {
+  return std::any_of(blocked_.begin(), blocked_.end(),
+                     [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
 StandingRoom::Place Explorer::place_in(const StandingRoom& room, CellIndex cell) const {
@@ -159,7 +163,7 @@ float Explorer::cost_of(double spare, double walls) const {
 
 Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const {
   const double border_reach = params_.border_margin + params_.comfort;
-  Costs result{coarsened(map, params_.coarsening), StandingRoom{map, area_, border_reach}, {}, {}, {}};
+  Costs result{coarsened(map, params_.coarsening), StandingRoom{map, area_, border_reach}, {}, {}, {}, {}};
   const GridFrame& frame = result.coarse.frame;
   result.costs.assign(frame.size(), ValueIteration::kClosed);
   const Margins margins = this->margins(map, robot, is_squeezing);
@@ -179,7 +183,7 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
       const bool may_be_wide = is_frontier && place.walls >= params_.gap;
       if (!(is_wide || may_be_wide)) continue;
       const double most = is_near ? margins.most_hazards : std::numeric_limits<double>::infinity();
-      if (!is_clear_of_marks(place.at, keep.hazards, most)) continue;
+      if (is_blocked(place.at) || !is_clear_of_marks(place.at, keep.hazards, most)) continue;
       if (is_frontier) {
         (is_wide ? result.frontier : result.gaps).push_back(cell);
         continue;
@@ -188,7 +192,29 @@ Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point
       result.costs[i] = static_cast<float>(frame.resolution) * cost_of(spare, place.walls);
     }
   }
+  open_trail(result);
   return result;
+}
+
+/// A map whose poses have moved draws a door narrower than it is, or walls double: the robot must not be shut in.
+void Explorer::open_trail(Costs& known) const {
+  constexpr double kGap = 0.6;  // [m]: it was carried, or its poses have moved
+  const GridFrame& frame = known.coarse.frame;
+  const double step = 0.5 * frame.resolution;
+  for (std::size_t k = 0; k + 1 < trail_.size(); ++k) {
+    const double length = distance(trail_[k], trail_[k + 1]);
+    if (length > kGap) continue;
+    for (double d = 0.0; d < length; d += step) {
+      const Point2 at = trail_[k] + (d / length) * (trail_[k + 1] - trail_[k]);
+      const CellIndex cell = frame.cell_at(at);
+      if (!frame.holds(cell) || !known.coarse.is_free(cell)) continue;
+      const std::size_t i = frame.index(cell);
+      if (known.costs[i] != ValueIteration::kClosed || is_blocked(at)) continue;
+      if (!is_clear_of_marks(at, params_.tight_margin, params_.tight_margin)) continue;
+      known.costs[i] = static_cast<float>(frame.resolution) * cost_of(-params_.wall_margin, 0.0);
+      known.driven.emplace(i, at);
+    }
+  }
 }
 
 void Explorer::give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier,
@@ -232,7 +258,10 @@ std::vector<CellIndex> Explorer::views_of_gaps(const Costs& known) const {
 
 std::vector<Point2> Explorer::places_of(const Costs& known, std::span<const CellIndex> cells) const {
   std::vector<Point2> places;
-  for (const CellIndex cell : cells) places.push_back(place_in(known.room, cell).at);
+  for (const CellIndex cell : cells) {
+    const auto driven = known.driven.find(known.coarse.frame.index(cell));
+    places.push_back(driven != known.driven.end() ? driven->second : place_in(known.room, cell).at);
+  }
   return places;
 }
 
