@@ -43,6 +43,8 @@ Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const
   Carrot result{here.at, norm(here.at)};
   Point2 at = here.at;
   Point2 end = here.at;
+  Point2 nearly = here.at;  // what can be reached by a robot that keeps a little less off
+  const double slim = radius - params.nearly_open;
   bool is_inside = true;
   bool is_blocked = false;
   double along = 0.0;
@@ -57,11 +59,19 @@ Carrot carrot_on(std::span<const Point2> path, double lookahead, std::span<const
       is_inside = is_inside && way <= lookahead;
       if (!is_inside) continue;
       end = at;
-      is_blocked = is_blocked || is_taken(at, obstacles, radius);
-      const double free = straight_free_way(std::atan2(at.y, at.x), obstacles, radius, way);
-      if (free >= way - params.nearly_free) result.in_base = at;
+      is_blocked = is_blocked || is_taken(at, obstacles, slim);
+      const double bearing = std::atan2(at.y, at.x);
+      const auto is_open_for = [&](double body) {
+        return straight_free_way(bearing, obstacles, body, way) >= way - params.nearly_free;
+      };
+      if (is_open_for(radius)) {
+        result.in_base = nearly = at;
+      } else if (is_open_for(slim)) {
+        nearly = at;
+      }
     }
   }
+  if (norm(result.in_base) < params.here) result.in_base = nearly;
   const double open = norm(result.in_base);
   if (open < params.here || (is_blocked && open < params.open_enough)) result.in_base = end;
   result.remaining += along;

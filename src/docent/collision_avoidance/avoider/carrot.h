@@ -12,6 +12,9 @@ struct CarrotParams {
   double open_enough = 0.7;   ///< [m] when no more of a path can be reached straight on which somebody stands, go round
   double here = 0.15;         ///< [m] so near the robot has nothing to steer for
   double nearly_free = 0.05;  ///< [m] a straight way may end so much before a place and still reach it
+  /// [m] of its margins that a path may lack in a narrow door, by noise and the cells it was planned over: nobody
+  /// stands on it, and the robot steers by it, not for what lies behind the door's frame
+  double nearly_open = 0.05;
 };
 
 /// What the robot steers for: a point that runs ahead of it along its path.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace docent::collision_avoidance::carrot_test {
@@ -36,6 +37,26 @@ TEST(Carrot, WhereThePathIsBlockedAtOnceItIsTheEndOfTheLookahead) {
   const std::vector<Point2> path{{0.0, 0.0}, {3.0, 0.0}};
   const std::vector<Obstacle> somebody{{.at = {0.6, 0.0}, .margin = 0.08}};
   EXPECT_NEAR(carrot_on(path, 1.2, somebody, kRadius).in_base.x, 1.2, CarrotParams{}.step + 1e-9);
+}
+
+/// A wall along x at y = 0.5 with a door whose middle is at x = 0.5; the path comes along the wall and turns into it.
+std::vector<Obstacle> wall_with_door(double half) {
+  std::vector<Obstacle> wall;
+  for (double x = -1.0; x <= 2.0; x += 0.01) {
+    if (std::abs(x - 0.5) < half) continue;
+    for (const double y : {0.5, 0.6, 0.7}) wall.push_back({.at = {x, y}, .margin = 0.08});
+  }
+  return wall;
+}
+
+TEST(Carrot, InADoorThatIsHardlyWideEnoughItIsNotBehindTheFrame) {
+  const std::vector<Point2> path{{0.0, 0.0}, {0.3, 0.05}, {0.5, 0.3}, {0.5, 1.0}, {-1.0, 1.2}};
+  for (const double spare : {0.02, 0.0, -0.02}) {  // beyond the margins; noise takes as much
+    const Point2 at = carrot_on(path, 1.5, wall_with_door(kRadius + 0.08 + spare), kRadius).in_base;
+    EXPECT_GT(at.x, 0.25) << spare;
+    EXPECT_LT(at.y, 0.8) << spare << ": it steers for a place that it sees";
+    EXPECT_GT(norm(at), CarrotParams{}.here) << spare;
+  }
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ void ExplorationDrive::forget_what_may_go() {
 }
 
 void ExplorationDrive::note_progress(Point2 robot, bool waits, Time now, Hindrance hindrance) {
-  if (waits || !progress_ || distance(robot, last_progress_) >= params_.moved) {
+  // Who knows no way is not held up on it.
+  if (waits || !progress_ || way_.empty() || distance(robot, last_progress_) >= params_.moved) {
     last_progress_ = robot;
     progress_ = now;
   }

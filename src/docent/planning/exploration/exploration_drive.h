@@ -55,6 +55,8 @@ class ExplorationDrive {
   void set_doubt(double sigma) { explorer_.set_doubt(sigma); }
   /// See `Explorer::set_mark_margin`.
   void set_mark_margin(std::function<double(Point2)> margin) { explorer_.set_mark_margin(std::move(margin)); }
+  /// See `Explorer::set_trail`.
+  void set_trail(std::vector<Point2> trail) { explorer_.set_trail(std::move(trail)); }
   /// [m], map: where it comes back to in the end.
   void set_home(Point2 home);
   /// [m], map: the way ahead, nearest first, up to the horizon; empty: stand.

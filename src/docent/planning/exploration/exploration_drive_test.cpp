@@ -105,6 +105,24 @@ TEST(ExplorationDrive, DoesNotDriveToAndFroBetweenTwoPlacesForEver) {
   EXPECT_LT(turns, 60) << "a line of unknown cells is some places wide";
 }
 
+TEST(ExplorationDrive, WhoHasWaitedForAWayIsNotHeldUpOnIt) {
+  // A room whose door is the only way home: a mark in it would shut the robot in.
+  OccupancyGrid map = hall(12.0);
+  for (int row = 1; row < 79; ++row)
+    if (row < 30 || row > 50) map.cells[map.frame.index({120, row})] = OccupancyGrid::kOccupied;
+  const Point2 robot{6.8, 2.0};
+  ExplorationDrive drive = drive_from({1.0, 2.0});
+  Time now{};
+  const auto plan = [&] { drive.plan(map, robot, false, now = now + seconds(1.0)); };
+  for (int i = 0; i < 60 && drive.state() == ExplorationDrive::State::exploring; ++i) plan();
+  ASSERT_EQ(drive.state(), ExplorationDrive::State::returning);
+  for (int i = 0; i < 6; ++i) {  // it turns on the spot before it sets out
+    plan();
+    ASSERT_FALSE(drive.way().empty()) << i;
+    EXPECT_LT(distance(drive.way().back(), {1.0, 2.0}), 0.2) << i << ": it is on its way home";
+  }
+}
+
 TEST(ExplorationDrive, TurnsBackOnItsWayHomeWhenAWayHasOpened) {
   ExplorationDrive drive = drive_from({1.0, 2.0});
   Time now{};

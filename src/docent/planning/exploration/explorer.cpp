@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "docent/grid/ground.h"
 #include "docent/planning/value_iteration/value_iteration.h"
 
 namespace docent::planning {
@@ -107,69 +106,115 @@ bool Explorer::is_given_up(Point2 place, double within) const {
                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
 }
 
-Clearance Explorer::clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const {
+Explorer::Margins Explorer::margins(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const {
+  constexpr double kAway = 0.02;  // [m] nearer than the robot stands
   const double more = std::clamp(params_.doubt_sigmas * doubt_ - params_.doubt_free, 0.0, params_.most_doubt);
-  Clearance result{params_.wall_margin, params_.hazard_margin + (is_squeezing ? 0.0 : more), params_.border_margin};
-  if (!is_near) return result;
-  if (!is_squeezing) result.hazards = params_.tight_margin;
-  // From where the robot stands too near to the border all ways lead away from it.
+  Margins result;
+  result.far = {is_squeezing ? params_.tight_margin : params_.wall_margin,
+                params_.hazard_margin + (is_squeezing ? 0.0 : more), params_.border_margin};
+  result.near = result.far;
+  result.most_hazards = std::numeric_limits<double>::infinity();
+  const auto near_to = [&](double there, double usual) {
+    return std::clamp(there - kAway, std::min(usual, params_.tight_margin), usual);
+  };
+  if (robot) {
+    const double keeps = params_.robot_radius + params_.wall_margin + 2.0 * kAway;
+    result.near.walls = near_to(fine_clearance(map, *robot, keeps) - params_.robot_radius, result.near.walls);
+    double nearest = result.most_hazards;
+    for (const Hazard& hazard : hazards_) nearest = std::min(nearest, distance(hazard.outline, *robot));
+    result.most_hazards = std::max(params_.tight_margin, nearest - params_.robot_radius - kAway);
+  }
   if (robot && !area_.empty()) {
     const double there = contains(area_, *robot) ? outline_distance(area_, *robot) : 0.0;
-    result.border = std::min(result.border, std::max(0.0, there - params_.tight_margin));
+    result.near.border = std::min(result.near.border, std::max(0.0, there - params_.tight_margin));
   }
   return result;
 }
 
-bool Explorer::may_stand(Point2 place, Clearance clearance) const {
+bool Explorer::is_clear_of_marks(Point2 place, double hazards, double most_hazards) const {
   constexpr double kRounding = 1e-6;   // [m]
   constexpr double kMostMargin = 5.0;  // [m]: whoever knows less of its marks stays where it is
-  if (room_on_ground(area_, {}, place, params_.robot_radius, clearance) < 0.0) return false;
-  if (mark_margin_ && !hazards_.empty() && clearance.hazards > params_.tight_margin)
-    clearance.hazards += std::min(kMostMargin, mark_margin_(place));
-  const double keep = params_.robot_radius + clearance.hazards;
+  if (mark_margin_ && !hazards_.empty()) hazards += std::min(kMostMargin, mark_margin_(place));
+  const double keep = params_.robot_radius + std::min(hazards, most_hazards);
   for (const Hazard& hazard : hazards_) {
     if (distance(hazard.centre, place) > hazard.radius + keep + kRounding) continue;
-    if (room_on_ground({}, {&hazard.outline, 1}, place, params_.robot_radius, clearance) < 0.0) return false;
+    if (distance(hazard.outline, place) < keep) return false;
   }
-  return std::none_of(blocked_.begin(), blocked_.end(),
-                      [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
+  return true;
+}
+
+bool Explorer::is_blocked(Point2 place) const {
+  return std::any_of(blocked_.begin(), blocked_.end(),
+                     [&](const Disc& disc) { return distance(disc.centre, place) < disc.radius; });
+}
+
+StandingRoom::Place Explorer::place_in(const StandingRoom& room, CellIndex cell) const {
+  return room.best_in(cell, params_.coarsening, params_.robot_radius + params_.wall_margin - params_.border_margin);
+}
+
+/// Of entering a place, as a factor. @param spare  [m] beyond the usual margins @param walls  [m] to the nearest
+float Explorer::cost_of(double spare, double walls) const {
+  const double discomfort = params_.comfort > 0.0 ? std::clamp(1.0 - spare / params_.comfort, 0.0, 1.0) : 0.0;
+  const double openness = std::clamp(walls / params_.open_reach - 1.0, 0.0, 1.0);
+  const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0) +
+                       params_.open_cost * openness;
+  return static_cast<float>(1.0 + extra);
 }
 
 Explorer::Costs Explorer::costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const {
-  Costs result{coarsened(map, params_.coarsening), {}, {}, {}};
+  const double border_reach = params_.border_margin + params_.comfort;
+  Costs result{coarsened(map, params_.coarsening), StandingRoom{map, area_, border_reach}, {}, {}, {}, {}};
   const GridFrame& frame = result.coarse.frame;
-  std::vector<bool> solid(frame.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = result.coarse.cells[i] >= 65;
-  const auto clearances = distance_transform(frame, solid);
   result.costs.assign(frame.size(), ValueIteration::kClosed);
-  const Clearance far = clearance(robot, is_squeezing, false), near = clearance(robot, is_squeezing, true);
+  const Margins margins = this->margins(map, robot, is_squeezing);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex cell{column, row};
       const std::size_t i = frame.index(cell);
-      double spare = static_cast<double>(clearances[i]) - params_.robot_radius - params_.wall_margin;
       const bool is_free = result.coarse.is_free(cell);
       const bool is_frontier = is_unknown(result.coarse.cells[i]) && borders_on_free(result.coarse, cell);
       if (!(is_free || is_frontier)) continue;
-      const bool is_near = is_squeezing || (robot && distance(*robot, frame.centre(cell)) < params_.tight_reach);
-      if (is_near && is_free && spare < 0.0)
-        spare = fine_clearance(map, frame.centre(cell), params_.robot_radius + params_.wall_margin) -
-                params_.robot_radius - params_.wall_margin;
-      if (!may_stand(frame.centre(cell), is_near ? near : far)) continue;
-      if (is_frontier && spare < 0.0 && static_cast<double>(clearances[i]) >= params_.gap) result.gaps.push_back(cell);
-      if (spare < (is_near && is_free ? params_.tight_margin - params_.wall_margin : 0.0)) continue;
+      const bool is_near = robot && distance(*robot, frame.centre(cell)) < params_.tight_reach;
+      const Clearance& keep = is_near ? margins.near : margins.far;
+      const StandingRoom::Place place = place_in(result.room, cell);
+      if (place.border < keep.border) continue;
+      const double walls = place.walls - params_.robot_radius;
+      const bool is_wide = walls >= (is_free ? keep.walls : params_.wall_margin);
+      const bool may_be_wide = is_frontier && place.walls >= params_.gap;
+      if (!(is_wide || may_be_wide)) continue;
+      const double most = is_near ? margins.most_hazards : std::numeric_limits<double>::infinity();
+      if (is_blocked(place.at) || !is_clear_of_marks(place.at, keep.hazards, most)) continue;
       if (is_frontier) {
-        result.frontier.push_back(cell);
+        (is_wide ? result.frontier : result.gaps).push_back(cell);
         continue;
       }
-      const double discomfort = params_.comfort > 0.0 ? std::clamp(1.0 - spare / params_.comfort, 0.0, 1.0) : 0.0;
-      const double openness = std::clamp(static_cast<double>(clearances[i]) / params_.open_reach - 1.0, 0.0, 1.0);
-      const double extra = params_.comfort_cost * discomfort * discomfort + (spare < 0.0 ? params_.tight_cost : 0.0) +
-                           params_.open_cost * openness;
-      result.costs[i] = static_cast<float>(frame.resolution * (1.0 + extra));
+      const double spare = std::min(walls - params_.wall_margin, place.border - params_.border_margin);
+      result.costs[i] = static_cast<float>(frame.resolution) * cost_of(spare, place.walls);
     }
   }
+  open_trail(result);
   return result;
+}
+
+/// A map whose poses have moved draws a door narrower than it is, or walls double: the robot must not be shut in.
+void Explorer::open_trail(Costs& known) const {
+  constexpr double kGap = 0.6;  // [m]: it was carried, or its poses have moved
+  const GridFrame& frame = known.coarse.frame;
+  const double step = 0.5 * frame.resolution;
+  for (std::size_t k = 0; k + 1 < trail_.size(); ++k) {
+    const double length = distance(trail_[k], trail_[k + 1]);
+    if (length > kGap) continue;
+    for (double d = 0.0; d < length; d += step) {
+      const Point2 at = trail_[k] + (d / length) * (trail_[k + 1] - trail_[k]);
+      const CellIndex cell = frame.cell_at(at);
+      if (!frame.holds(cell) || !known.coarse.is_free(cell)) continue;
+      const std::size_t i = frame.index(cell);
+      if (known.costs[i] != ValueIteration::kClosed || is_blocked(at)) continue;
+      if (!is_clear_of_marks(at, params_.tight_margin, params_.tight_margin)) continue;
+      known.costs[i] = static_cast<float>(frame.resolution) * cost_of(-params_.wall_margin, 0.0);
+      known.driven.emplace(i, at);
+    }
+  }
 }
 
 void Explorer::give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier,
@@ -211,6 +256,15 @@ std::vector<CellIndex> Explorer::views_of_gaps(const Costs& known) const {
   return views;
 }
 
+std::vector<Point2> Explorer::places_of(const Costs& known, std::span<const CellIndex> cells) const {
+  std::vector<Point2> places;
+  for (const CellIndex cell : cells) {
+    const auto driven = known.driven.find(known.coarse.frame.index(cell));
+    places.push_back(driven != known.driven.end() ? driven->second : place_in(known.room, cell).at);
+  }
+  return places;
+}
+
 std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot) {
   Costs known = costs_of(map, robot);
   const GridFrame& frame = known.coarse.frame;
@@ -238,8 +292,10 @@ std::optional<Exploration> Explorer::next(const OccupancyGrid& map, Point2 robot
     if (!planner.settle(*start, kEnough)) return std::nullopt;
   }
   Exploration result;
-  for (const CellIndex& cell : planner.descend(*start)) result.way.push_back(frame.centre(cell));
-  if (result.way.empty()) return std::nullopt;
+  const std::vector<CellIndex> cells = planner.descend(*start);
+  if (cells.empty()) return std::nullopt;
+  result.way = places_of(known, cells);
+  result.way.back() = frame.centre(cells.back());
   result.cost = static_cast<double>(planner.value(*start));
   result.frontier = goals.size();
   last_ = result.way.back();
@@ -255,9 +311,7 @@ std::vector<Point2> Explorer::way_to(const OccupancyGrid& map, Point2 robot, Poi
   planner.set_goals(std::vector<ValueIteration::Goal>{{cell}});
   const auto start = start_cell(planner, robot);
   if (!start || !planner.settle(*start, kEnough)) return {};
-  std::vector<Point2> way;
-  for (const CellIndex& step : planner.descend(*start)) way.push_back(known.coarse.frame.centre(step));
-  return way;
+  return places_of(known, planner.descend(*start));
 }
 
 std::vector<Point2> Explorer::way_to_room(const OccupancyGrid& map, Point2 robot) const {
@@ -266,8 +320,6 @@ std::vector<Point2> Explorer::way_to_room(const OccupancyGrid& map, Point2 robot
   constexpr float kEasy = 1.2F;    // times the cost of open floor
   const Costs known = costs_of(map, robot, true);
   const GridFrame& frame = known.coarse.frame;
-  Clearance roomy = clearance(std::nullopt, false, false);
-  roomy.border = std::max(roomy.border, kRoomy);
   std::vector<ValueIteration::Goal> goals;
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
@@ -275,7 +327,7 @@ std::vector<Point2> Explorer::way_to_room(const OccupancyGrid& map, Point2 robot
       const Point2 place = frame.centre(cell);
       if (distance(place, robot) > kNear) continue;
       if (known.costs[frame.index(cell)] > kEasy * static_cast<float>(frame.resolution)) continue;
-      if (may_stand(place, roomy)) goals.push_back({cell});
+      if (place_in(known.room, cell).border >= kRoomy) goals.push_back({cell});
     }
   }
   ValueIteration planner{frame};
@@ -283,9 +335,7 @@ std::vector<Point2> Explorer::way_to_room(const OccupancyGrid& map, Point2 robot
   planner.set_goals(goals);
   const auto start = start_cell(planner, robot);
   if (goals.empty() || !start || !planner.settle(*start, kEnough)) return {};
-  std::vector<Point2> way;
-  for (const CellIndex& step : planner.descend(*start)) way.push_back(frame.centre(step));
-  return way;
+  return places_of(known, planner.descend(*start));
 }
 
 std::vector<Explorer::Unreached> Explorer::unreached(const OccupancyGrid& map) const {

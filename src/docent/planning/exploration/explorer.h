@@ -12,6 +12,7 @@
 #include "docent/geometry/polygon.h"
 #include "docent/grid/clearance.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/planning/exploration/standing_room.h"
 
 namespace docent::planning {
 
@@ -98,6 +99,8 @@ class Explorer {
   void set_doubt(double sigma) { doubt_ = sigma; }
   /// [m] that marks near a place may lie off beside that, all but surely: the robot was set down by hand.
   void set_mark_margin(std::function<double(Point2)> margin) { mark_margin_ = std::move(margin); }
+  /// [m], map: where it has driven, in order. It can again, however narrow the map has drawn that since.
+  void set_trail(std::vector<Point2> trail) { trail_ = std::move(trail); }
   /// [m], map: what is near to it is explored first.
   void set_home(Point2 home) { home_ = home; }
   /// Something stands there that the map does not show: no way leads through the disc until `unblock`.
@@ -120,14 +123,27 @@ class Explorer {
   };
   struct Costs {
     OccupancyGrid coarse;
-    std::vector<float> costs;         ///< [rows * columns] of planning cells
-    std::vector<CellIndex> frontier;  ///< unknown, beside free floor, wide enough
-    std::vector<CellIndex> gaps;      ///< the same, too narrow by what is known, but perhaps only seen badly
+    StandingRoom room;
+    std::map<std::size_t, Point2> driven;  ///< cells that are open because it drove there, and where in them
+    std::vector<float> costs;              ///< [rows * columns] of planning cells
+    std::vector<CellIndex> frontier;       ///< unknown, beside free floor, wide enough
+    std::vector<CellIndex> gaps;           ///< the same, too narrow by what is known, but perhaps only seen badly
   };
   [[nodiscard]] bool is_given_up(Point2 place, double within) const;
-  [[nodiscard]] bool may_stand(Point2 place, Clearance clearance) const;
-  [[nodiscard]] Clearance clearance(std::optional<Point2> robot, bool is_squeezing, bool is_near) const;
+  /// What ways keep off: everywhere, and near the robot, which may stand nearer to something than it plans to and must
+  /// get away. Where it stands well both are the same, so it comes into no place from which it finds no way back.
+  struct Margins {
+    Clearance far, near;        ///< `hazards` without `mark_margin_`
+    double most_hazards = 0.0;  ///< [m] near the robot, `mark_margin_` and all
+  };
+  [[nodiscard]] Margins margins(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing) const;
+  [[nodiscard]] bool is_blocked(Point2 place) const;
+  [[nodiscard]] bool is_clear_of_marks(Point2 place, double hazards, double most_hazards) const;
   [[nodiscard]] Costs costs_of(const OccupancyGrid& map, std::optional<Point2> robot, bool is_squeezing = false) const;
+  [[nodiscard]] StandingRoom::Place place_in(const StandingRoom& room, CellIndex cell) const;
+  [[nodiscard]] float cost_of(double spare, double walls) const;
+  void open_trail(Costs& known) const;
+  [[nodiscard]] std::vector<Point2> places_of(const Costs& known, std::span<const CellIndex> cells) const;
   [[nodiscard]] std::vector<CellIndex> views_of_gaps(const Costs& known) const;
   void give_up_what_stays_unknown(const OccupancyGrid& coarse, std::span<const CellIndex> frontier, Point2 robot);
 
@@ -141,6 +157,7 @@ class Explorer {
   Polygon area_;
   double doubt_ = 0.0;
   std::function<double(Point2)> mark_margin_;  ///< none: they lie where they are said to
+  std::vector<Point2> trail_;
   std::optional<Point2> home_;
   std::vector<Disc> blocked_;
   std::vector<Disc> forgone_;

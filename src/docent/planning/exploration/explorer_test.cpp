@@ -324,6 +324,56 @@ TEST(Explorer, FromTooNearToTheBorderTheWayLeadsAway) {
   }
 }
 
+/// The hall of 12 x 4 m with a wall at 4.5 m, whose door of so many cells begins at a row.
+OccupancyGrid hall_with_door(int first, int cells) {
+  OccupancyGrid map = empty_hall();
+  for (int row = 0; row < 80; ++row) {
+    if (row >= first && row < first + cells) continue;
+    for (int column = 88; column < 92; ++column) map.cells[map.frame.index({column, row})] = OccupancyGrid::kOccupied;
+  }
+  return map;
+}
+
+TEST(Explorer, ADoorIsOpenOrShutWhereverTheGridLies) {
+  for (const int first : {30, 31}) {
+    EXPECT_FALSE(Explorer{{}}.way_to(hall_with_door(first, 15), {2.0, 2.0}, {9.0, 2.0}).empty()) << "0.75 m";
+    EXPECT_TRUE(Explorer{{}}.way_to(hall_with_door(first, 12), {2.0, 2.0}, {9.0, 2.0}).empty()) << "0.6 m";
+  }
+}
+
+TEST(Explorer, GoesIntoNoPlaceFromWhichItFindsNoWayBack) {
+  // From right before the door, and from within it, nothing is passable that is not from far away.
+  const OccupancyGrid map = hall_with_door(34, 13);
+  for (const double x : {2.0, 3.7, 4.0}) EXPECT_TRUE(Explorer{{}}.way_to(map, {x, 2.0}, {9.0, 2.0}).empty()) << x;
+  const Explorer explorer{{}};
+  EXPECT_FALSE(explorer.way_to(map, {0.5, 0.5}, {2.0, 2.0}).empty());
+  OccupancyGrid wall = empty_hall();
+  for (int row = 0; row < 80; ++row) wall.cells[wall.frame.index({60, row})] = OccupancyGrid::kOccupied;
+  EXPECT_FALSE(explorer.way_to(wall, {2.7, 2.0}, {0.5, 2.0}).empty()) << "who stands too near gets away";
+}
+
+TEST(Explorer, WhereItHasDrivenItCanAgain) {
+  const OccupancyGrid map = hall_with_door(34, 11);  // the map has drawn it narrow since
+  const Point2 robot{9.0, 2.0}, home{2.0, 2.0};
+  Explorer explorer{{}};
+  EXPECT_TRUE(explorer.way_to(map, robot, home).empty());
+  std::vector<Point2> trail;
+  for (double x = 2.0; x <= 9.0; x += 0.2) trail.push_back({x, 1.97});
+  explorer.set_trail(trail);
+  const auto way = explorer.way_to(map, robot, home);
+  ASSERT_FALSE(way.empty());
+  for (const Point2 at : way) {
+    if (std::abs(at.x - 4.5) < 0.2) {
+      EXPECT_NEAR(at.y, 1.97, 0.01) << "as it drove";
+    }
+  }
+  explorer.block({4.5, 2.0}, 0.5);
+  EXPECT_TRUE(explorer.way_to(map, robot, home).empty()) << "something stands there now";
+  explorer.unblock();
+  explorer.set_trail({{2.0, 2.0}, {9.0, 2.0}});
+  EXPECT_TRUE(explorer.way_to(map, robot, home).empty()) << "it was carried";
+}
+
 TEST(Explorer, KeepsOffMarksAsFarAsTheyMayLieOff) {
   OccupancyGrid map;
   map.frame = {200, 100, 0.05, {0.0, 0.0}};

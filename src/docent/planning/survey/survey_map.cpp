@@ -67,6 +67,12 @@ std::vector<Pose2> SurveyMap::in_site(std::span<const Pose2> survey_from_base) c
   return poses;
 }
 
+std::vector<Point2> SurveyMap::trail() const {
+  std::vector<Point2> places;
+  for (const Pose2& pose : poses_.map_from_base()) places.push_back(site_from_survey_ * pose.position());
+  return places;
+}
+
 void SurveyMap::follow() {
   if (std::exchange(lies_elsewhere_, false) || poses_.revision() != revision_) {
     revision_ = poses_.revision();

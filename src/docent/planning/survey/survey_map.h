@@ -31,6 +31,8 @@ class SurveyMap {
   static constexpr double kWallsApart = 0.15;  ///< [m]
   /// [m], survey: some points of what was seen, at most one in so many metres, with normals. O(moments)
   [[nodiscard]] std::vector<mapping::SurfacePoint> walls(double apart) const;
+  /// [m], site: where the robot was at each moment, by what is known now. O(moments)
+  [[nodiscard]] std::vector<Point2> trail() const;
   /// Follows the poses that have moved since, a hundred moments a call.
   void follow();
   /// What is known now is looked at: `seen` and `known_m2`. O(cells)

@@ -50,6 +50,11 @@ TEST(SurveyMap, ScansCorrectOdometry) {
     found = map.add(moment_at(pose, {1.5 + 0.25 * i, 2.0 + 0.02 * i, {}}, i));
   }
   EXPECT_NEAR(found.y, 2.0, 0.06) << "odometry is 22 cm off";
+  map.lie({10.0, 0.0, {}});
+  const std::vector<Point2> trail = map.trail();
+  ASSERT_EQ(trail.size(), 12U);
+  for (std::size_t i = 0; i < trail.size(); ++i)
+    EXPECT_LT(distance(trail[i], {11.5 + 0.25 * static_cast<double>(i), 2.0}), 0.08);
 }
 
 TEST(SurveyMap, IsMadeOnceMoreInTheEnd) {

@@ -99,6 +99,7 @@ Surveyor::Step Surveyor::plan(Time now) {
   if (order_ != ExplorationOrder::by_itself) return Step::looked;
   drive_.set_doubt(map_.poses().doubt_of_marks());
   drive_.set_mark_margin([alignment = alignment_](Point2 place) { return alignment.margin_at(place); });
+  drive_.set_trail(map_.trail());
   drive_.plan(map_.seen(), here->position(), is_held(now), now, hindrance());
   is_done_ = drive_.state() == ExplorationDrive::State::arrived;
   return Step::planned;
