@@ -81,8 +81,9 @@ void check(const Options& options) {
                 fs::exists(backup / "museum", ignored) ? ", with the museum" : "");
   }
   if (!fault.empty())
-    throw CommandFailed{"the store is damaged: the next program that opens it recovers what is left, and keeps the "
-                        "damaged files"};
+    throw CommandFailed{
+        "the store is damaged: the next program that opens it recovers what is left, and keeps the "
+        "damaged files"};
 }
 
 void backup(const Options& options) {
@@ -166,7 +167,8 @@ void add_state_command(CLI::App& app) {
   CLI::App& copy = *part("backup", "makes a backup now; the robot may run", backup);
   copy.add_option("--museum", options->museum, "folder of the museum, to be copied too");
   copy.add_option("--to", options->to, "a new folder; STATE/backups/DAY without it");
-  CLI::App& back = *part("restore", "puts a backup in the place of the store, which is kept; no robot may run", restore);
+  CLI::App& back =
+      *part("restore", "puts a backup in the place of the store, which is kept; no robot may run", restore);
   back.add_option("--from", options->from, "a day of STATE/backups, or a folder; the newest without it");
   back.add_option("--museum", options->museum, "folder of the museum, to be put back too");
 }

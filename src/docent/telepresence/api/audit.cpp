@@ -40,18 +40,17 @@ Result<std::unique_ptr<Audit>> Audit::open(Database& database) {
 }
 
 Result<void> Audit::add(const AuditEntry& entry) {
-  return done(database_.run(
-      "INSERT INTO audit (id, time, who, what, about, address) VALUES ($1, $2, $3, $4, $5, $6)",
-      {make_token(), entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
+  return done(database_.run("INSERT INTO audit (id, time, who, what, about, address) VALUES ($1, $2, $3, $4, $5, $6)",
+                            {make_token(), entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
 }
 
 Result<void> Audit::count(const AuditEntry& entry) {
   const std::string hour = std::to_string(entry.time.nanoseconds / kHour);
   const std::string id = hash_token(hour + "\n" + entry.what + "\n" + entry.who + "\n" + entry.address);
-  return done(database_.run(
-      "INSERT INTO audit (id, time, who, what, about, address, times) VALUES ($1, $2, $3, $4, $5, $6, 1)"
-      " ON CONFLICT (id) DO UPDATE SET time = excluded.time, times = audit.times + 1",
-      {id, entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
+  return done(
+      database_.run("INSERT INTO audit (id, time, who, what, about, address, times) VALUES ($1, $2, $3, $4, $5, $6, 1)"
+                    " ON CONFLICT (id) DO UPDATE SET time = excluded.time, times = audit.times + 1",
+                    {id, entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
 }
 
 Result<std::vector<AuditEntry>> Audit::find(const AuditSearch& search) {
@@ -73,8 +72,7 @@ Result<std::vector<AuditEntry>> Audit::find(const AuditSearch& search) {
     const auto place_of = parse_place(search.before);
     if (!place_of) return fail("that is no place in the log");
     const std::string then = argument(place_of->first);
-    want("(time < " + then + " OR (time = " + then + " AND " + place + " < " +
-         argument(place_of->second) + "))");
+    want("(time < " + then + " OR (time = " + then + " AND " + place + " < " + argument(place_of->second) + "))");
   }
   const std::string most = argument(std::int64_t{search.most});
   auto rows = database_.run("SELECT time, who, what, about, address, times, " + place + " FROM audit" + where +

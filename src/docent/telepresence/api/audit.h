@@ -15,10 +15,10 @@ namespace docent::telepresence {
 /// Who did what, when and from where: logins, and all that moderators and operators do.
 struct AuditEntry {
   Time time;
-  std::string who;      ///< a person's id, or the name with which somebody tried to log in
-  std::string what;     ///< a word, such as "login" or the endpoint's name
-  std::string about;    ///< the thing that it was done to; empty: none
-  std::string address;  ///< from where
+  std::string who;         ///< a person's id, or the name with which somebody tried to log in
+  std::string what;        ///< a word, such as "login" or the endpoint's name
+  std::string about;       ///< the thing that it was done to; empty: none
+  std::string address;     ///< from where
   std::int64_t count = 1;  ///< how often, within the hour whose last one is `time`
   std::string place = {};  ///< in the log, for `AuditSearch::before`
 };

@@ -51,7 +51,7 @@ struct WebServiceParts {
   ScreenDesk::Means screen;
   HornSound horn;
   std::optional<StoreBackups> backups;  ///< made daily; nullopt: none
-  std::string gateway;  ///< a name of its own
+  std::string gateway;                  ///< a name of its own
   std::uint64_t seed = 0;
   /// Told what operators order, whenever that is shown.
   std::function<void(const documents::OperationMessage&)> operated;

@@ -62,8 +62,7 @@ bool begins_well(sqlite3* database) {
   char begin[16] = {};
   return sqlite3_file_control(database, "main", SQLITE_FCNTL_FILE_POINTER, static_cast<void*>(&file)) == SQLITE_OK &&
          file != nullptr && file->pMethods != nullptr &&
-         file->pMethods->xRead(file, begin, sizeof begin, 0) == SQLITE_OK &&
-         has_sqlite_header({begin, sizeof begin});
+         file->pMethods->xRead(file, begin, sizeof begin, 0) == SQLITE_OK && has_sqlite_header({begin, sizeof begin});
 }
 
 }  // namespace docent::telepresence

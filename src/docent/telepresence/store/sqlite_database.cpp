@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 using Part = StoreLock::Part;
 using Kind = StoreLock::Kind;
 
-constexpr int kPatience = 2000;                ///< [ms] for another program that reads the file
-constexpr std::int64_t kNoticeLasts = 86400;   ///< [s]
-constexpr std::int64_t kMendingPeriod = 2;     ///< [s] between two tries
+constexpr int kPatience = 2000;               ///< [ms] for another program that reads the file
+constexpr std::int64_t kNoticeLasts = 86400;  ///< [s]
+constexpr std::int64_t kMendingPeriod = 2;    ///< [s] between two tries
 constexpr const char* kDiskFull = "the disk is full";
 
 /// Releases what was waited for.
@@ -88,6 +88,8 @@ class SqliteDatabase final : public Database {
     lock_.emplace(std::move(*lock));
     const Held held{*lock_, Part::files, Kind::alone};
     const bool is_alone = lock_->try_for(Part::use, Kind::alone);
+    if (!is_alone && !FileMark::of(files_.file()))
+      return fail(files_.file().string() + " is gone: the program that has it open makes it anew in ten seconds");
     auto opened = is_alone ? open_alone() : connect();
     if (opened) lock_->wait_for(Part::use, Kind::shared);
     if (!opened) lock_->release(Part::use);
@@ -127,6 +129,7 @@ class SqliteDatabase final : public Database {
       const int made = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
       if (made < 0) return fail(file.string() + ": cannot be made");
       ::close(made);
+      make_private(file);
       SQLite::Database to{file.string(), SQLite::OPEN_READWRITE};
       SQLite::Backup backup{to, *connection_};
       if (backup.executeStep(-1) != SQLITE_DONE) return fail(file.string() + ": others write without end");
@@ -197,6 +200,7 @@ class SqliteDatabase final : public Database {
       if (!is_in_memory_) {
         const int made = ::open(files_.file().c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         if (made >= 0) ::close(made);
+        if (made >= 0) make_private(files_.file());
       }
       connection_ = std::make_unique<SQLite::Database>(files_.file().string(),
                                                        SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kPatience);
@@ -341,7 +345,10 @@ class SqliteDatabase final : public Database {
       const bool was_in_transaction = is_in_transaction();
       const Held held{*lock_, Part::commit, Kind::shared};
       if (!was_in_transaction || has_begun_) fault_ = fault_.empty() ? open_files_->look(files_) : fault_;
-      if (!fault_.empty()) return fail(files_.file().string() + ": " + fault_);
+      if (!fault_.empty()) {
+        if (was_in_transaction) connection_->exec("ROLLBACK");
+        return fail(files_.file().string() + ": " + fault_);
+      }
       work();
       is_gone_ = false;
       has_begun_ = is_in_transaction();

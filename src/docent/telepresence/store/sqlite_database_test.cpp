@@ -29,10 +29,11 @@ class TheFilesOfAStore : public testing::Test {
     fs::create_directory(base_ / "state");
     file_ = base_ / "state" / "web.sqlite";
     open();
-    ASSERT_TRUE(database_->run_script(
-        "CREATE TABLE t (a BIGINT NOT NULL, b TEXT NOT NULL);"
-        "CREATE TABLE accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, created BIGINT NOT NULL);"
-        "INSERT INTO accounts VALUES ('ada', 'the hash of ada', 'operator', 1)"));
+    ASSERT_TRUE(
+        database_->run_script("CREATE TABLE t (a BIGINT NOT NULL, b TEXT NOT NULL);"
+                              "CREATE TABLE accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, "
+                              "created BIGINT NOT NULL);"
+                              "INSERT INTO accounts VALUES ('ada', 'the hash of ada', 'operator', 1)"));
     for (int i = 0; i < 300; ++i) ASSERT_TRUE(put(i));
   }
   void TearDown() override {

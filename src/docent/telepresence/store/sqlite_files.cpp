@@ -31,9 +31,7 @@ fs::path SqliteFiles::newest_backup() const {
   return found.empty() ? fs::path{} : *std::max_element(found.begin(), found.end());
 }
 
-SqliteFiles::Bytes SqliteFiles::read() const {
-  return {read_file(file_).value_or(""), read_file(wal()).value_or("")};
-}
+SqliteFiles::Bytes SqliteFiles::read() const { return {read_file(file_).value_or(""), read_file(wal()).value_or("")}; }
 
 std::string SqliteFiles::fault(bool was_left_open) const {
   const bool was_there = was_left_open || is_there(accounts()) || is_there(wal());

@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr fs::perms kForAll =
+    fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read;
+
 std::string day_of(std::int64_t seconds) {
   const std::time_t time = seconds;
   std::tm parts{};
@@ -28,16 +31,23 @@ bool is_day(const std::string& name) {
 }
 
 /// Files and folders, not links: what a museum's folder links to is not its own.
-Result<void> copy_folder(const fs::path& from, const fs::path& to) {
+Result<void> copy_folder(const fs::path& from, const fs::path& to, bool is_private) {
   std::error_code code;
   fs::create_directories(to, code);
+  if (is_private) make_private(to);
   for (fs::recursive_directory_iterator at{from, code}, end; !code && at != end; at.increment(code)) {
     const fs::path target = to / fs::relative(at->path(), from);
     if (at->is_symlink()) continue;
     if (at->is_directory()) {
       fs::create_directories(target, code);
+      if (is_private) make_private(target);
     } else if (at->is_regular_file()) {
       fs::copy_file(at->path(), target, code);
+      if (is_private) {
+        make_private(target);
+      } else {
+        fs::permissions(target, kForAll, code);
+      }
       if (auto kept = code ? Result<void>{} : sync_to_disk(target); !kept) return kept;
     }
   }
@@ -69,14 +79,14 @@ Result<void> StoreBackups::make_in(const fs::path& folder) const {
   fs::remove_all(part, code);
   fs::create_directories(part, code);
   if (code) return fail(part.string() + ": cannot be made: " + code.message());
-  fs::permissions(part, fs::perms::owner_all, code);
+  make_private(part);
   Result<void> done;
   if (!Database::is_shared(database_)) {
     auto database = Database::open(database_);
     done = database ? (*database)->copy_to(part / fs::path{database_}.filename())
                     : Result<void>{tl::unexpected<Error>(database.error())};
   }
-  if (done && !museum_.empty()) done = copy_folder(museum_, part / "museum");
+  if (done && !museum_.empty()) done = copy_folder(museum_, part / "museum", true);
   if (done) done = sync_to_disk(part);
   if (done) done = rename_for_good(part, folder);
   if (!done) fs::remove_all(part, code);
@@ -86,7 +96,7 @@ Result<void> StoreBackups::make_in(const fs::path& folder) const {
 Result<fs::path> StoreBackups::make(std::int64_t now_s) const {
   std::error_code ignored;
   fs::create_directories(folder(), ignored);
-  fs::permissions(folder(), fs::perms::owner_all, ignored);
+  make_private(folder());
   fs::path made = folder() / day_of(now_s);
   for (int i = 2; fs::exists(made, ignored); ++i) made = folder() / (day_of(now_s) + "-" + std::to_string(i));
   if (auto done = make_in(made); !done) return tl::unexpected<Error>(done.error());
@@ -135,7 +145,7 @@ Result<fs::path> StoreBackups::restore_museum(const fs::path& backup, const fs::
   if (!fs::exists(backup, code)) return fail(backup.string() + " is not there");
   const fs::path part = museum.string() + ".part";
   fs::remove_all(part, code);
-  if (auto copied = copy_folder(backup, part); !copied) {
+  if (auto copied = copy_folder(backup, part, false); !copied) {
     fs::remove_all(part, code);
     return tl::unexpected<Error>(copied.error());
   }

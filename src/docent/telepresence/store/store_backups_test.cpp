@@ -91,7 +91,8 @@ TEST_F(TheBackups, AreWholeOrNotThere) {
   const StoreBackups broken{state_, file(), base_ / "no-museum"};
   EXPECT_FALSE(broken.make_in(base_ / "copy"));
   EXPECT_FALSE(fs::exists(base_ / "copy"));
-  for (const auto& entry : fs::directory_iterator(base_)) EXPECT_FALSE(entry.path().filename().string().starts_with("."));
+  for (const auto& entry : fs::directory_iterator(base_))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("."));
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <sstream>
 #include <utility>
 
+#include "docent/telepresence/store/salvage/private_files.h"
+
 namespace docent::telepresence {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr std::size_t kMostMended = 20;
 
 /// Of open files, not of processes: two connections of one process exclude each other too.
 bool set_lock(int file, StoreLock::Part part, short type, bool waits) {
-  struct flock lock{};
+  struct flock lock {};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
   lock.l_start = static_cast<off_t>(part);
@@ -35,7 +37,7 @@ short type_of(StoreLock::Kind kind) { return kind == StoreLock::Kind::shared ? F
 }  // namespace
 
 std::optional<FileMark> FileMark::of(const std::filesystem::path& file) {
-  struct stat found{};
+  struct stat found {};
   if (::stat(file.c_str(), &found) != 0) return std::nullopt;
   return FileMark{found.st_dev, found.st_ino};
 }
@@ -44,6 +46,7 @@ Result<StoreLock> StoreLock::open(const std::filesystem::path& database) {
   const std::string name = database.string() + ".lock";
   const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) return fail(name + ": cannot be opened: " + std::strerror(errno));
+  make_private(name);
   return StoreLock{file};
 }
 

@@ -54,7 +54,8 @@ std::optional<std::vector<Value>> values_of(std::string_view record) {
 
 PageKind kind_of(std::string_view image, std::size_t begin) {
   const auto kind = static_cast<PageKind>(image.size() > begin + kInsideHeader ? big_endian<1>(image, begin) : 0);
-  for (const PageKind known : {PageKind::index_inside, PageKind::table_inside, PageKind::index_leaf, PageKind::table_leaf})
+  for (const PageKind known :
+       {PageKind::index_inside, PageKind::table_inside, PageKind::index_leaf, PageKind::table_leaf})
     if (kind == known) return kind;
   return PageKind::other;
 }

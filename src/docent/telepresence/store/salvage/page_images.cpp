@@ -82,7 +82,11 @@ Wal parse_wal(std::string_view wal, std::size_t wanted_page_size, bool is_cut) {
   const std::size_t step = kFrameHeader + found.page_size;
   Checksum before{big_endian<4>(wal, 24), big_endian<4>(wal, 28)};
   for (std::size_t at = kWalHeader; at + step <= wal.size(); at += step) {
-    Frame frame{big_endian<4>(wal, at), big_endian<4>(wal, at + 4) != 0, false, false, false,
+    Frame frame{big_endian<4>(wal, at),
+                big_endian<4>(wal, at + 4) != 0,
+                false,
+                false,
+                false,
                 wal.substr(at + kFrameHeader, found.page_size)};
     const Checksum said{big_endian<4>(wal, at + 16), big_endian<4>(wal, at + 20)};
     frame.is_ours = spoiled_bytes(wal.substr(at + 8, 8), salts) <= 1;
@@ -98,9 +102,8 @@ Wal parse_wal(std::string_view wal, std::size_t wanted_page_size, bool is_cut) {
     found.older.push_back(found.frames.back());
     found.frames.pop_back();
   }
-  found.is_damaged = std::any_of(found.frames.begin(), found.frames.end(), [&](const Frame& frame) {
-    return !found.has_good_header || !frame.is_good;
-  });
+  found.is_damaged = std::any_of(found.frames.begin(), found.frames.end(),
+                                 [&](const Frame& frame) { return !found.has_good_header || !frame.is_good; });
   // What was never committed is nobody's, unless the end of what was is gone.
   for (auto frame = found.frames.rbegin(); frame != found.frames.rend(); ++frame) {
     if (frame->ends_transaction || !frame->is_good) break;

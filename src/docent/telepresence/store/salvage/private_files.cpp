@@ -39,6 +39,7 @@ Result<void> write_private_file(const std::filesystem::path& file, std::string_v
   }
   if (why == 0 && ::fsync(opened) != 0) why = errno;
   ::close(opened);
+  make_private(beside);
   if (why == 0) {
     if (auto renamed = rename_for_good(beside, file); renamed) return {};
     why = errno;
@@ -47,7 +48,15 @@ Result<void> write_private_file(const std::filesystem::path& file, std::string_v
   return cannot(file, "written", why);
 }
 
-void make_private(const std::filesystem::path& file) { (void)::chmod(file.c_str(), 0600); }
+void make_private(const std::filesystem::path& path) {
+  struct stat found {};
+  struct stat folder {};
+  const auto around = path.parent_path();
+  if (::stat(path.c_str(), &found) != 0 || ::stat(around.empty() ? "." : around.c_str(), &folder) != 0) return;
+  if (::chmod(path.c_str(), S_ISDIR(found.st_mode) ? 0700 : 0600) != 0) return;
+  if (::geteuid() == 0 && found.st_uid != folder.st_uid && ::chown(path.c_str(), folder.st_uid, folder.st_gid) != 0)
+    return;
+}
 
 Result<void> sync_to_disk(const std::filesystem::path& path) {
   const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -68,7 +77,8 @@ std::filesystem::path dated_name(const std::filesystem::path& beside, const std:
   const std::string name = beside.string() + "." + why + "-" + formatted(seconds_now(), "%Y%m%dT%H%M%SZ");
   std::filesystem::path free = name;
   std::error_code ignored;
-  for (int i = 2; std::filesystem::exists(free, ignored) || std::filesystem::exists(free.string() + "-wal", ignored); ++i)
+  for (int i = 2; std::filesystem::exists(free, ignored) || std::filesystem::exists(free.string() + "-wal", ignored);
+       ++i)
     free = name + "-" + std::to_string(i);
   return free;
 }

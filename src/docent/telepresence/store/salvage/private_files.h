@@ -10,8 +10,9 @@ namespace docent::telepresence {
 
 /// Readable for its owner alone; the old file or the new one, never half of one; on the disk when it returns.
 [[nodiscard]] Result<void> write_private_file(const std::filesystem::path& file, std::string_view content);
-/// Takes everybody else's rights off a file, where it is there.
-void make_private(const std::filesystem::path& file);
+/// Takes everybody else's rights off a file or folder, where it is there; what root makes belongs to whom its folder
+/// does.
+void make_private(const std::filesystem::path& path);
 /// On the disk, whatever becomes of the power: a file, or which files a folder has.
 [[nodiscard]] Result<void> sync_to_disk(const std::filesystem::path& path);
 /// On the disk under its other name.

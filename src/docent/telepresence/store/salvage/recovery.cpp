@@ -197,6 +197,7 @@ Result<Recovered> recover(const Remains& remains, const fs::path& to) {
   const int made = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (made < 0) return fail(to.string() + ": cannot be made");
   ::close(made);
+  make_private(part);
   Result<Recovered> done = fail(to.string() + ": cannot be made");
   if (const Connection connection = open(part, SQLITE_OPEN_READWRITE)) {
     done = Recovery{remains, connection.get()}.run();

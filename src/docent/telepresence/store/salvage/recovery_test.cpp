@@ -33,7 +33,8 @@ class ADamagedStore : public testing::Test {
     sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     run("PRAGMA journal_mode = WAL");
     run("CREATE TABLE posts (id TEXT PRIMARY KEY, text TEXT NOT NULL, written BIGINT NOT NULL)");
-    run("CREATE TABLE accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, created BIGINT NOT NULL)");
+    run("CREATE TABLE accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, created BIGINT NOT "
+        "NULL)");
     run("INSERT INTO accounts VALUES ('ada', 'hash of ada', 'operator', 7)");
     add(0, kRows / 2);
     run("PRAGMA wal_checkpoint(TRUNCATE)");
@@ -50,8 +51,8 @@ class ADamagedStore : public testing::Test {
   }
   void add(int first, int last) const {
     for (int i = first; i < last; ++i)
-      run("INSERT INTO posts VALUES ('p" + std::to_string(i) + "', '" + std::string(static_cast<std::size_t>(i % 90), 'x') +
-          "', " + std::to_string(i * 1000) + ")");
+      run("INSERT INTO posts VALUES ('p" + std::to_string(i) + "', '" +
+          std::string(static_cast<std::size_t>(i % 90), 'x') + "', " + std::to_string(i * 1000) + ")");
   }
   void take() {
     left_.file = *read_file(folder_ / "web.sqlite");
@@ -191,7 +192,8 @@ TEST_F(ADamagedStore, IsReadWhateverItsBytesAre) {
 TEST(ATableCopy, IsReadAsItWasWrittenOrNotAtAll) {
   char name[] = "/tmp/docent-copy-XXXXXX";
   const fs::path folder = ::mkdtemp(name);
-  const TableCopy copy{{"name", "hash"}, {{std::string{"ada"}, std::string{"h:1\n2"}}, {std::string{"bo"}, std::int64_t{-7}}}};
+  const TableCopy copy{{"name", "hash"},
+                       {{std::string{"ada"}, std::string{"h:1\n2"}}, {std::string{"bo"}, std::int64_t{-7}}}};
   ASSERT_TRUE(copy.write(folder / "copy"));
   EXPECT_EQ(TableCopy::read(folder / "copy"), copy);
   const std::string whole = *read_file(folder / "copy");

@@ -107,7 +107,8 @@ class Salvager {
           // What is no index is looked at again.
           if (page.kind() != PageKind::index_leaf && page.kind() != PageKind::index_inside) seen_.erase(number);
           for (const Cell& cell : entries)
-            if (const auto* id = std::get_if<std::int64_t>(&cell.values.back()); id != nullptr && cell.values.size() > 1)
+            if (const auto* id = std::get_if<std::int64_t>(&cell.values.back());
+                id != nullptr && cell.values.size() > 1)
               known.emplace(*id, text_of(cell.values.front()));
         },
         [] {});
@@ -142,7 +143,8 @@ class Salvager {
       std::string best = tables.front();
       int most = -1;
       for (const std::string& table : tables) {
-        const int score = (is_in_index(table, row) ? 4 : 0) + (owner != owner_.end() && owner->second == table ? 2 : 0) +
+        const int score = (is_in_index(table, row) ? 4 : 0) +
+                          (owner != owner_.end() && owner->second == table ? 2 : 0) +
                           (found_[table].lost_pages > 0 ? 1 : 0);
         if (score > most) best = table;
         most = std::max(most, score);
@@ -181,7 +183,7 @@ class Salvager {
   const std::map<std::string, TableShape>& shapes_;
   std::map<std::string, SalvagedTable> found_;
   std::set<std::uint32_t> seen_;
-  std::map<std::uint32_t, std::string> owner_;  ///< whose tree names a page
+  std::map<std::uint32_t, std::string> owner_;                                 ///< whose tree names a page
   std::map<std::string, std::multimap<std::int64_t, std::string>> known_ids_;  ///< of a table's indexes: id, key
 };
 
@@ -202,8 +204,7 @@ std::vector<SchemaEntry> salvage_schema(const PageImages& images) {
       [&](std::uint32_t /*number*/, const TreePage& page) {
         for (const Cell& row : page.rows(is_schema_row))
           schema.push_back({text_of(row.values[0]), text_of(row.values[1]), text_of(row.values[2]),
-                            text_of(row.values[4]),
-                            static_cast<std::uint32_t>(std::get<std::int64_t>(row.values[3]))});
+                            text_of(row.values[4]), static_cast<std::uint32_t>(std::get<std::int64_t>(row.values[3]))});
       },
       [] {});
   return schema;

@@ -111,8 +111,8 @@ int TableCopy::put(sqlite3* database, bool only_known) const {
   for (const auto& row : now->rows) names.insert(row.at(0));
   std::string marks;
   for (std::size_t i = 0; i < columns.size(); ++i) marks += (i == 0 ? "?" : ", ?");
-  Statement insert{database, std::string{"INSERT OR REPLACE INTO "} + kTable + " (" + joined(columns) + ") VALUES (" +
-                                 marks + ")"};
+  Statement insert{
+      database, std::string{"INSERT OR REPLACE INTO "} + kTable + " (" + joined(columns) + ") VALUES (" + marks + ")"};
   int changed = 0;
   for (const auto& row : rows) {
     const bool is_same = now->columns == columns && there.contains(row);
