@@ -337,9 +337,11 @@ export interface AuditLine {
   what: string;
   about: string;
   address: string;
+  count: number;
 }
 export interface AuditLines {
   lines: AuditLine[];
+  next: string;
 }
 export interface StatisticsDay {
   day: string;
@@ -528,6 +530,7 @@ export const documents = {
     "fields": {
       "about": "string",
       "address": "string",
+      "count": "number",
       "time": "number",
       "what": "string",
       "who": "string"
@@ -540,7 +543,8 @@ export const documents = {
         "list": {
           "document": "AuditLine"
         }
-      }
+      },
+      "next": "string"
     },
     "maybe": {}
   },
