@@ -220,8 +220,9 @@ class SqliteDatabase final : public Database {
     sqlite3_update_hook(connection_->getHandle(), &SqliteDatabase::see_change, this);
     open_files_ = OpenFiles::of(files_);
     take_notice();
-    if (!open_files_) return fail(files_.file().string() + ": its files are gone");
-    return {};
+    if (open_files_) return {};
+    disconnect(false);
+    return fail(files_.file().string() + ": its files are gone");
   }
   /// @param checkpoints  what is in the WAL goes into the file, if nobody else has it open
   void disconnect(bool checkpoints) {
@@ -273,7 +274,8 @@ class SqliteDatabase final : public Database {
     const auto is_mended = [&](const FileMark& mark) {
       return std::find(note.mended.begin(), note.mended.end(), mark) != note.mended.end();
     };
-    const bool is_done = open_files_ && is_mended(open_files_->file);
+    const auto there = FileMark::of(files_.file());
+    const bool is_done = there && open_files_ && *there != open_files_->file && is_mended(open_files_->file);
     if (!is_done) {
       if (auto mended = mend(bytes_of(connection_->getHandle()), fault_, &*lock); !mended) return mended;
     }
@@ -302,6 +304,10 @@ class SqliteDatabase final : public Database {
     };
     auto said = files_.mend(left, why, note_it);
     if (!said) return tl::unexpected<Error>(said.error());
+    // The number of a file that is gone may be that of a new one.
+    StoreLock::Note note = lock->note();
+    if (const auto made = FileMark::of(files_.file())) std::erase(note.mended, *made);
+    (void)lock->write(note);
     say(*said, lock);
     return {};
   }
@@ -346,6 +352,7 @@ class SqliteDatabase final : public Database {
       const Held held{*lock_, Part::commit, Kind::shared};
       if (!was_in_transaction || has_begun_) fault_ = fault_.empty() ? open_files_->look(files_) : fault_;
       if (!fault_.empty()) {
+        has_begun_ = false;
         if (was_in_transaction) connection_->exec("ROLLBACK");
         return fail(files_.file().string() + ": " + fault_);
       }

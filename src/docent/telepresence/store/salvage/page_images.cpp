@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <optional>
+#include <set>
+#include <utility>
 
 #include "docent/telepresence/store/salvage/page_bytes.h"
 
@@ -45,6 +46,7 @@ struct Frame {
 struct Wal {
   std::size_t page_size = 0;
   bool has_good_header = false;
+  std::size_t count = 0;  ///< of all frames that are whole
   std::vector<Frame> frames;
   std::vector<Frame> older;  ///< of what the WAL held before, the last first
   bool is_damaged = false;
@@ -97,6 +99,7 @@ Wal parse_wal(std::string_view wal, std::size_t wanted_page_size, bool is_cut) {
     before = said;
     found.frames.push_back(frame);
   }
+  found.count = found.frames.size();
   // Behind the last of this generation stand those of older ones, which are in the file.
   while (!found.frames.empty() && !found.frames.back().is_ours) {
     found.older.push_back(found.frames.back());
@@ -134,13 +137,28 @@ PageImages read_pages(std::string_view file, std::string_view wal, bool is_cut) 
     images.usable -= big_endian<1>(file, 20);
   for (std::size_t at = 0; at + images.page_size <= file.size(); at += images.page_size)
     images.pages[static_cast<std::uint32_t>(at / images.page_size + 1)] = file.substr(at, images.page_size);
-  for (const Frame& frame : log.frames) {
-    if (frame.is_good) {
-      images.pages[frame.page] = frame.image;
-    } else {
-      images.doubtful.emplace_back(frame.page, frame.image);
+  const auto fill = [&](std::string_view begin) {
+    std::string page{begin};
+    page.resize(images.page_size, '\0');
+    images.filled.push_back(std::make_shared<const std::string>(std::move(page)));
+    return std::string_view{*images.filled.back()};
+  };
+  if (const std::size_t rest = file.size() % images.page_size; rest != 0)
+    images.pages[static_cast<std::uint32_t>(file.size() / images.page_size + 1)] =
+        fill(file.substr(file.size() - rest));
+  std::set<std::uint32_t> newer;
+  for (auto frame = log.frames.rbegin(); frame != log.frames.rend(); ++frame) {
+    const bool is_newest = newer.insert(frame->page).second;
+    if (!frame->is_good) {
+      images.doubtful.push_back({frame->page, frame->image, is_newest});
+      if (is_newest) newer.erase(frame->page);  // the newest good one is wanted too
+    } else if (is_newest) {
+      images.pages[frame->page] = frame->image;
     }
   }
+  std::reverse(images.doubtful.begin(), images.doubtful.end());
+  if (const std::size_t at = kWalHeader + log.count * (kFrameHeader + images.page_size); at + kFrameHeader < wal.size())
+    images.doubtful.push_back({big_endian<4>(wal, at), fill(wal.substr(at + kFrameHeader)), true});
   for (const Frame& frame : log.older) images.older.emplace_back(frame.page, frame.image);
   return images;
 }

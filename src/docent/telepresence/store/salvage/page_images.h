@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,9 +17,16 @@ struct PageImages {
   std::size_t usable = 4096;     ///< [bytes] of it that SQLite fills
   std::map<std::uint32_t, std::string_view> pages;
   /// Of the WAL, where a checksum is wrong: page number and page, either of which may be it.
-  std::vector<std::pair<std::uint32_t, std::string_view>> doubtful;
+  struct Doubtful {
+    std::uint32_t number = 0;
+    std::string_view image;
+    bool is_newest = false;  ///< of this number
+  };
+  std::vector<Doubtful> doubtful;
   /// What pages were before, the newest first: where a page is lost, these are all that is left.
   std::vector<std::pair<std::uint32_t, std::string_view>> older;
+  /// Where a file ends within a page: that, filled up with zeros.
+  std::vector<std::shared_ptr<const std::string>> filled;
 };
 
 /// What a WAL says of itself.

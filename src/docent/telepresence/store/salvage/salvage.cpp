@@ -88,8 +88,8 @@ class Salvager {
       if (entry.root > 1 && entry.type == "table" && shapes_.contains(entry.name)) read_table(entry);
     for (const auto& [number, image] : images_.pages)
       if (number > 1 && !seen_.contains(number)) read_stray(number, image, false);
-    for (const auto& [number, image] : images_.doubtful)
-      if (number != 1) read_stray(number, image, true);
+    for (const auto& page : images_.doubtful)
+      if (page.number != 1) read_stray(page.number, page.image, page.is_newest, page.is_newest ? "" : kNeverOlder);
     const bool is_whole =
         std::all_of(found_.begin(), found_.end(), [](const auto& table) { return table.second.lost_pages == 0; });
     for (const auto& [number, image] : images_.older)
