@@ -43,7 +43,8 @@ std::string SqliteFiles::fault(bool was_left_open) const {
   if (log.is_damaged) return "the WAL is damaged";
   // How many frames are in no file but the WAL, as whoever wrote them last has kept it in the index.
   const std::size_t only_there = frames_only_in_wal(read_file(index()).value_or(""));
-  if (!is_there(wal()) && was_left_open) return kWalGone;
+  // Whoever closes it well removes both.
+  if (!is_there(wal()) && is_there(index())) return kWalGone;
   if (only_there > log.frames) return kWalCut;
   return "";
 }
