@@ -121,7 +121,8 @@ fs::path backup_named(const Options& options) {
     return all.back();
   }
   const fs::path named = fs::path{options.state} / "backups" / options.from;
-  const fs::path from = options.from.find('/') == std::string::npos && fs::is_directory(named) ? named : options.from;
+  const fs::path from =
+      options.from.find('/') == std::string::npos && fs::is_directory(named) ? named : fs::path{options.from};
   if (!fs::is_directory(from)) throw CommandFailed{"--from " + options.from + ": there is no such backup"};
   return from;
 }
