@@ -14,6 +14,7 @@
 #include "docent/apps/shared/robot_maker.h"
 #include "docent/apps/simulate/explore_command.h"
 #include "docent/apps/simulate/simulate_command.h"
+#include "docent/apps/state/state_command.h"
 #include "docent/apps/up/run_command.h"
 #include "docent/apps/up/setup_command.h"
 #include "docent/apps/up/up_command.h"
@@ -29,7 +30,8 @@ int main(int argc, char** argv) {
        .groups = {{"Drive through a museum",
                    {with_robot(simulate_command::add_simulate_command, whole),
                     with_robot(simulate_command::add_explore_command, whole), up_command::add_up_command,
-                    web_account_command::add_web_account_command, gateway_command::add_gateway_command}},
+                    web_account_command::add_web_account_command, state_command::add_state_command,
+                    gateway_command::add_gateway_command}},
                   {"Make a museum",
                    {up_command::add_setup_command, museum_command::add_museum_command,
                     museum_command::add_office_command, museum_command::add_survey_command,

@@ -339,9 +339,11 @@ export interface AuditLine {
   what: string;
   about: string;
   address: string;
+  count: number;
 }
 export interface AuditLines {
   lines: AuditLine[];
+  next: string;
 }
 export interface StatisticsDay {
   day: string;
@@ -530,6 +532,7 @@ export const documents = {
     "fields": {
       "about": "string",
       "address": "string",
+      "count": "number",
       "time": "number",
       "what": "string",
       "who": "string"
@@ -542,7 +545,8 @@ export const documents = {
         "list": {
           "document": "AuditLine"
         }
-      }
+      },
+      "next": "string"
     },
     "maybe": {}
   },

@@ -1,6 +1,7 @@
 #include "docent/apps/shared/deployment.h"
 
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -107,6 +108,12 @@ Result<void> Deployment::prepare_state() const {
   if (error || !std::filesystem::is_directory(state)) {
     return fail("--state " + state + ": " + (error ? error.message() : "is not a folder"));
   }
+  // What it holds, and what recordings show, is nobody else's.
+  ::umask(0077);
+  for (const auto& entry : std::filesystem::directory_iterator(state, error))
+    if (entry.is_regular_file(error))
+      std::filesystem::permissions(entry.path(), std::filesystem::perms::group_all | std::filesystem::perms::others_all,
+                                   std::filesystem::perm_options::remove, error);
   return {};
 }
 

@@ -40,7 +40,7 @@ struct Deployment {
   [[nodiscard]] Result<museum::SetupWork> work() const;
   /// @param further  sections beside `body` and those of the modules
   [[nodiscard]] Result<robot::RobotConfig> load_config(const std::vector<std::string>& further = {}) const;
-  /// Makes the folder of the state.
+  /// Makes the folder of the state; all that this process and its children write from then on is for its owner alone.
   [[nodiscard]] Result<void> prepare_state() const;
 };
 

@@ -61,6 +61,10 @@ telepresence::ScreenDesk::Means screen_means(const std::filesystem::path& state)
   return {keep_answer, help_text};
 }
 
+std::string database_of(const ModuleContext& context, const WebParams& params) {
+  return params.database.empty() ? (context.state / "web.sqlite").string() : params.database;
+}
+
 telepresence::WebServiceParts service_parts(const ModuleContext& context, const WebParams& params,
                                             telepresence::WebStore store, telepresence::Desk* desk,
                                             MuseumDesk* museum_desk, const std::string& gateway) {
@@ -68,6 +72,7 @@ telepresence::WebServiceParts service_parts(const ModuleContext& context, const 
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);
   parts.post = [&bus = context.bus](std::function<void()> work) { bus.post(std::move(work)); };
+  parts.backups.emplace(context.state, database_of(context, params), context.museum.folder);
   parts.is_shared = telepresence::Database::is_shared(params.database);
   parts.max_open_requests = static_cast<std::size_t>(params.max_open_requests);
   parts.kept_places = static_cast<std::size_t>(params.kept_places);
@@ -89,7 +94,7 @@ class WebModule final : public Module {
   static Result<std::unique_ptr<Module>> make(const ModuleContext& context) {
     auto params = context.config.section<WebParams>("web");
     if (!params) return tl::unexpected<Error>(params.error());
-    const std::string where = params->database.empty() ? (context.state / "web.sqlite").string() : params->database;
+    const std::string where = database_of(context, *params);
     auto store = telepresence::WebStore::open(where);
     if (!store) return tl::unexpected<Error>(store.error());
     Offices offices{context};
@@ -128,8 +133,6 @@ class WebModule final : public Module {
             std::shared_ptr<telepresence::Desk> desk)
       : bus_{context.bus},
         params_{std::move(params)},
-        start_fault_{
-            store.database->was_damaged() ? "web.sqlite was damaged and has been set aside; a new one was begun" : ""},
         offices_{std::move(offices)},
         desk_{std::move(desk)},
         robot_{context, "web/" + telepresence::make_token()},

@@ -89,6 +89,12 @@ Result<std::vector<Account>> Accounts::list() {
   return accounts;
 }
 
+Result<bool> Accounts::has(const std::string& name) {
+  auto rows = database_.run("SELECT 1 FROM accounts WHERE name = $1", {name});
+  if (!rows) return tl::unexpected<Error>(rows.error());
+  return !rows->rows.empty();
+}
+
 Result<std::optional<Person>> Accounts::check(const std::string& name, const std::string& password) {
   auto rows = database_.run("SELECT hash, rank FROM accounts WHERE name = $1", {name});
   if (!rows) return tl::unexpected<Error>(rows.error());

@@ -48,6 +48,8 @@ class Accounts {
   [[nodiscard]] Result<void> remove(const std::string& name);
   [[nodiscard]] Result<std::vector<Account>> list();  ///< by name
 
+  [[nodiscard]] Result<bool> has(const std::string& name);  ///< an account of that name
+
   /// Whose password it is; nullopt: nobody's. Takes as long where there is no such account.
   [[nodiscard]] Result<std::optional<Person>> check(const std::string& name, const std::string& password);
 

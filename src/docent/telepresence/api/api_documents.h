@@ -164,17 +164,20 @@ struct AuditLine {
   static constexpr const char* kName = "AuditLine";
   double time = 0;
   std::string who, what, about, address;
+  std::int64_t count = 1;  ///< wrong passwords of an hour, an account and an address are one line
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("time", d.time), v("who", d.who), v("what", d.what), v("about", d.about), v("address", d.address);
+    v("count", d.count);
   }
 };
 struct AuditLines {
   static constexpr const char* kName = "AuditLines";
   std::vector<AuditLine> lines;
+  std::string next;  ///< `before` of the next page; empty: this was the last
   template <class Self, class V>
   static void visit(Self& d, V& v) {
-    v("lines", d.lines);
+    v("lines", d.lines), v("next", d.next);
   }
 };
 

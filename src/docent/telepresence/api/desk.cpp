@@ -23,7 +23,6 @@ std::string name_in(const std::string& body) {
 
 constexpr double kReadsAtOnce = 10.0;   // [s] worth of them
 constexpr double kWritesAtOnce = 20.0;  // [s] likewise
-constexpr double kAuditDays = 365.0;
 
 }  // namespace
 
@@ -185,7 +184,7 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
     std::string about;
     for (const auto& [name, value] : call.path) about += (about.empty() ? "" : " ") + value;
     auto noted = call.services.audit->add({call.now, call.person.id, endpoint.name, about, request.address});
-    if (!noted) return refuse(ApiFault::not_stored, noted.error().message);
+    if (!noted) return refuse(ApiFault::not_stored, public_reason(noted.error()));
   }
   return document;
 }
@@ -226,7 +225,7 @@ void Desk::tidy() {
   (void)store_worker_.post([this] {
     const Time now = clock_();
     store_.accounts->forget_before(now);
-    store_.audit->forget_before(now - seconds(86400.0 * kAuditDays));
+    store_.audit->forget(now);
   });
 }
 

@@ -1,5 +1,7 @@
 #include "docent/telepresence/api/endpoint.h"
 
+#include <charconv>
+
 #include "docent/telepresence/client_message.h"
 
 namespace docent::telepresence {
@@ -121,6 +123,17 @@ int status_of(ApiFault reason) {
       break;
   }
   return 503;
+}
+
+std::string public_reason(const Error& why) {
+  return why.message.find("the disk is full") != std::string::npos ? "the disk is full" : "the database";
+}
+
+std::optional<Time> time_of(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value < 1e10)) return std::nullopt;
+  return time_from_seconds(value);
 }
 
 ApiAnswer<const Endpoint*> find_endpoint(std::span<const Endpoint> all, std::string_view method,

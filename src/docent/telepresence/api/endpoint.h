@@ -107,6 +107,8 @@ struct Endpoint {
 
 /// Those that change the museum.
 [[nodiscard]] std::vector<Endpoint> museum_endpoints();
+/// Reading the audit log.
+[[nodiscard]] std::vector<Endpoint> audit_endpoints();
 /// Those that set one up.
 [[nodiscard]] std::vector<Endpoint> setup_endpoints();
 /// A row of the table, without what it does.
@@ -121,6 +123,10 @@ struct Endpoint {
 [[nodiscard]] ApiAnswer<const Endpoint*> find_endpoint(std::span<const Endpoint> all, std::string_view method,
                                                        std::string_view target,
                                                        std::map<std::string, std::string>& path);
+/// What a stranger may know of why something was not stored: no path, no text of a library.
+[[nodiscard]] std::string public_reason(const Error& why);
+/// [s] since 1970, as a query has it. nullopt: it is none
+[[nodiscard]] std::optional<Time> time_of(const std::string& text);
 /// What stands behind the '?', decoded. nullopt: it is no such thing, or too long.
 [[nodiscard]] std::optional<std::map<std::string, std::string>> parse_query(std::string_view target);
 

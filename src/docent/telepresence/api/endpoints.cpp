@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "docent/telepresence/accounts/look_alikes.h"
@@ -13,10 +12,18 @@ namespace {
 using documents::Nothing;
 
 /// What the store could not do.
-tl::unexpected<ApiRefusal> unstored(const Error& why) { return refuse(ApiFault::not_stored, why.message); }
+tl::unexpected<ApiRefusal> unstored(const Error& why) { return refuse(ApiFault::not_stored, public_reason(why)); }
 
 Result<void> note(ApiCall& call, const std::string& who, const char* what, std::string about = {}) {
   return call.services.audit->add({call.now, who, what, std::move(about), call.request.address});
+}
+
+/// One line an hour: who guesses names and passwords buries nothing.
+Result<void> note_wrong_password(ApiCall& call, const std::string& name) {
+  const auto is_one = call.services.accounts->has(name);
+  if (!is_one) return tl::unexpected<Error>(is_one.error());
+  return call.services.audit->count(
+      {call.now, *is_one ? name : Audit::kNobody, "wrong_password", "", network_of(call.request.address)});
 }
 
 std::string cookie_of(const std::string& token, double seconds_it_lasts, bool is_secure) {
@@ -46,7 +53,7 @@ ApiAnswer<documents::Me> log_in(ApiCall& call, const documents::NewLogin& wish) 
   auto person = call.services.accounts->check(wish.name, wish.password);
   if (!person) return unstored(person.error());
   if (!*person) {
-    if (auto noted = note(call, clean_name(wish.name), "wrong_password"); !noted) return unstored(noted.error());
+    if (auto noted = note_wrong_password(call, clean_name(wish.name)); !noted) return unstored(noted.error());
     return refuse(ApiFault::wrong_password);
   }
   if (auto noted = note(call, (*person)->id, "login"); !noted) return unstored(noted.error());
@@ -105,12 +112,8 @@ documents::ForumPost post_for(const Post& post, const Person& reader) {
 ApiAnswer<documents::ForumThreads> list_threads(ApiCall& call, const Nothing& /*wish*/) {
   std::optional<Time> before;
   if (const auto given = call.query.find("before"); given != call.query.end()) {
-    double value = 0.0;
-    const std::string& text = given->second;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0.0 && value < 1e10))
-      return refuse(ApiFault::not_understood, "before must be a time");
-    before = time_from_seconds(value);
+    before = time_of(given->second);
+    if (!before) return refuse(ApiFault::not_understood, "before must be a time");
   }
   auto threads = call.services.forum->threads(before);
   if (!threads) return unstored(threads.error());
@@ -213,16 +216,6 @@ ApiAnswer<documents::StatisticsDays> statistics(ApiCall& call, const Nothing& /*
   return page;
 }
 
-ApiAnswer<documents::AuditLines> audit(ApiCall& call, const Nothing& /*wish*/) {
-  constexpr int kMost = 200;
-  const auto entries = call.services.audit->newest(kMost);
-  if (!entries) return unstored(entries.error());
-  documents::AuditLines page;
-  for (const AuditEntry& entry : *entries)
-    page.lines.push_back({to_seconds(entry.time), entry.who, entry.what, entry.about, entry.address});
-  return page;
-}
-
 ApiAnswer<documents::AccountLines> list_accounts(ApiCall& call, const Nothing& /*wish*/) {
   const auto accounts = call.services.accounts->list();
   if (!accounts) return unstored(accounts.error());
@@ -267,11 +260,10 @@ std::vector<Endpoint> make_table() {
       endpoint<Nothing, documents::StatisticsDays>(at("GET", "/statistics", Rank::moderator, "statistics",
                                                       "What was counted, by day and kind of hours", {"from"}),
                                                    statistics),
-      endpoint<Nothing, documents::AuditLines>(
-          at("GET", "/audit", Rank::operator_, "audit", "The newest entries of the audit log"), audit),
       endpoint<Nothing, documents::AccountLines>(
           at("GET", "/accounts", Rank::operator_, "list_accounts", "Who has an account"), list_accounts),
   };
+  for (Endpoint& each : audit_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : museum_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : setup_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : table) each.is_dear = std::string_view{each.name} == "login";

@@ -46,7 +46,8 @@ TEST(TheStatistics, AddUpByDayAndHours) {
     auto other = std::move(*Database::open(path));
     fill_and_check(*one, *other);
   }
-  std::filesystem::remove(path);  // once both are closed: SQLite has then removed its own files beside it
+  // Once both are closed SQLite has removed its own files beside it.
+  for (const char* end : {"", ".lock"}) std::filesystem::remove(path + end);
 }
 
 TEST(TheStatistics, AddUpInASharedDatabase) {

@@ -7,9 +7,12 @@
 #include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/museum_document.h"
+#include "docent/telepresence/store/salvage/private_files.h"
 
 namespace docent::telepresence {
 namespace {
+
+constexpr Duration kStorePeriod = std::chrono::seconds{10};
 
 RequestSource source_of(Role role) {
   switch (role) {
@@ -46,7 +49,8 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
              parts.seed, [this](std::string text) { viewers_.show(slots::kVotes, std::move(text)); },
              now},
       operator_{robot, button, std::move(parts.note)},
-      counts_{queue_, std::move(parts.store.statistics), std::move(parts.gateway), now} {}
+      counts_{queue_, std::move(parts.store.statistics), std::move(parts.gateway), now},
+      backups_{std::move(parts.backups)} {}
 
 void WebService::take(const Caller& caller, const ClientMessage& message, Time now) {
   const ViewerId viewer = caller.id;
@@ -167,6 +171,16 @@ void WebService::look(const PresentHours& hours, std::size_t viewers, Time now) 
   votes_.look(now);
   screen_.look(now);
   queue_.look(now);
+  look_at_store(now);
+}
+
+/// A file that is gone or cut off is found also while nobody stores anything.
+void WebService::look_at_store(Time now) {
+  if (looked_at_store_ && now - *looked_at_store_ < kStorePeriod) return;
+  looked_at_store_ = now;
+  backups_.look(seconds_now());
+  queue_.put([this] { return database_->look(); },
+             [this](const Result<void>& looked) { store_fault_ = looked ? "" : looked.error().message; }, now);
 }
 
 void WebService::resend(Time now) {
@@ -193,6 +207,8 @@ void WebService::forget_old(Time now) {
 std::string WebService::fault() const {
   for (const std::string* fault : {&wishes_.fault(), &screen_.fault(), &votes_.fault(), &counts_.fault()})
     if (!fault->empty()) return *fault;
+  for (const std::string& fault : {store_fault_, backups_.fault(), database_->notice()})
+    if (!fault.empty()) return fault;
   return {};
 }
 

@@ -14,6 +14,7 @@
 #include "docent/telepresence/counting/count_desk.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/service/answer_desk.h"
+#include "docent/telepresence/service/backup_keeper.h"
 #include "docent/telepresence/service/operator_desk.h"
 #include "docent/telepresence/service/screen_desk.h"
 #include "docent/telepresence/service/viewers.h"
@@ -49,7 +50,8 @@ struct WebServiceParts {
   OperatorDesk::Note note;
   ScreenDesk::Means screen;
   HornSound horn;
-  std::string gateway;  ///< a name of its own
+  std::optional<StoreBackups> backups;  ///< made daily; nullopt: none
+  std::string gateway;                  ///< a name of its own
   std::uint64_t seed = 0;
   /// Told what operators order, whenever that is shown.
   std::function<void(const documents::OperationMessage&)> operated;
@@ -121,6 +123,7 @@ class WebService {
   /// Slots that are shown again only when they have changed.
   enum class Kept { expression, hours, operation, count };
   void show_if_new(Kept kept, slots::Slot slot, std::string text);
+  void look_at_store(Time now);
   void answer(ViewerId viewer, const std::string& id, const Reason& why_not);
   void answer_operators(Time now);
   /// Answers that viewer, once it is clear what became of it.
@@ -147,6 +150,9 @@ class WebService {
   HealthView health_;
   std::optional<MissionPhase> phase_;  ///< of the mission, as last heard
   bool is_muted_ = false;
+  BackupKeeper backups_;
+  std::optional<Time> looked_at_store_;
+  std::string store_fault_;  ///< of its files, as last seen
   std::array<std::string, static_cast<std::size_t>(Kept::count)> shown_;
 };
 

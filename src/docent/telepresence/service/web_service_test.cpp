@@ -337,6 +337,25 @@ TEST_F(WebServiceTest, AnOperatorWaitsForNoDiskThatVisitorsWaitFor) {
   std::filesystem::remove_all(folder);
 }
 
+TEST_F(WebServiceTest, SaysWithinAMinuteThatItsStoreIsGoneAndMakesItAnew) {
+  char name[] = "/tmp/docent-service-XXXXXX";
+  const std::filesystem::path folder = std::filesystem::path{::mkdtemp(name)} / "state";
+  std::filesystem::create_directory(folder);
+  make(WebStore::open((folder / "web.sqlite").string()).value(), {});
+  EXPECT_NE(take(wish()).find("ack"), std::string::npos);
+  look();
+  EXPECT_EQ(service_->fault(), "");
+  std::filesystem::remove_all(folder);
+  now_ = now_ + std::chrono::minutes{1};
+  look();
+  EXPECT_NE(service_->fault().find("the file is gone"), std::string::npos) << service_->fault();
+  const auto other = WebStore::open((folder / "web.sqlite").string()).value();
+  ASSERT_EQ(other.pending.size(), 1U) << "what was acknowledged is there";
+  EXPECT_EQ(other.pending[0].id, kId);
+  service_.reset();
+  std::filesystem::remove_all(folder.parent_path());
+}
+
 TEST_F(WebServiceTest, OldWishesAreGivenUp) {
   take(wish());
   now_ = now_ + std::chrono::minutes{59};

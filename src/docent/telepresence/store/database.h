@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -11,11 +12,9 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/telepresence/store/salvage/value.h"
 
 namespace docent::telepresence {
-
-/// NULL, a whole number, a number, a text.
-using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
 
 /// One row of an answer.
 class Row {
@@ -48,8 +47,8 @@ struct QueryResult {
 /// when it returns, a transaction when `commit` does. One thread at a time.
 class Database {
  public:
-  /// @param where  "postgresql://…", or the path of a file, which is made if it is not there; a damaged one is set
-  /// aside as FILE.damaged, see `was_damaged`
+  /// @param where  "postgresql://…", or the path of a file, which is made if it is not there; a damaged one is mended,
+  /// see `notice`
   [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::string& where);
   [[nodiscard]] static bool is_shared(const std::string& where);  ///< a server, not a file
 
@@ -63,7 +62,16 @@ class Database {
                                                 const std::vector<Value>& arguments = {}) = 0;
   /// Several statements without arguments, as they stand in a migration.
   [[nodiscard]] virtual Result<void> run_script(const std::string& statements) = 0;
-  [[nodiscard]] virtual bool was_damaged() const { return false; }
+  /// What became of the database within a day, such as that it was damaged and what was recovered; empty: nothing. Any
+  /// thread.
+  [[nodiscard]] virtual std::string notice() const { return {}; }
+  /// Now and then: sees whether its files are still there and whole, and mends them. What is committed into a file that
+  /// is gone fails.
+  [[nodiscard]] virtual Result<void> look() { return {}; }
+  /// All of it as it is now, into a new file. Others may go on writing.
+  [[nodiscard]] virtual Result<void> copy_to(const std::filesystem::path& /*file*/) {
+    return fail("a database of a server is copied with its own programs");
+  }
   /// How long a statement may take; then it has failed, and the database counts as gone. Before: as long as it takes.
   virtual void set_patience(Duration /*patience*/) {}
   /// Whether nobody answered the last statement: the next one would wait as long.
