@@ -22,10 +22,11 @@ void RingEchoes::hear(int ring, std::size_t index, const SonarReading& reading, 
                             is_echo ? reading.range : 0.0};
 }
 
-std::optional<RingCheck::Vote> RingCheck::vote_of(const RingEcho& echo, const SweepView& view) const {
+std::optional<RingCheck::Vote> RingCheck::vote_of(const RingEcho& echo, const SweepView& view,
+                                                  const Pose2& odom_from_sensor) const {
   if (!(echo.range >= params_.least_range && echo.range <= params_.most_range)) return std::nullopt;
   if (std::abs(to_seconds(view.stamp - echo.stamp)) > params_.together) return std::nullopt;
-  const Pose2 laser_from_ring = inverse(view.odom_from_sensor) * echo.odom_from_sensor;
+  const Pose2 laser_from_ring = inverse(odom_from_sensor) * echo.odom_from_sensor;
   const Point2 at = laser_from_ring * Point2{echo.range, 0.0};
   const double range = norm(at);
   const long middle = view.sample_to(at);
@@ -47,6 +48,21 @@ std::optional<RingCheck::Vote> RingCheck::vote_of(const RingEcho& echo, const Sw
   }
   if (vote.reading == 0.0) return std::nullopt;  // the laser says nothing there
   return vote;
+}
+
+std::vector<Point2> RingCheck::unanswered(const SweepView& view, std::span<const RingEcho> echoes) const {
+  std::vector<Point2> places;
+  const auto samples = static_cast<long>(view.ranges.size());
+  for (const RingEcho& echo : echoes) {
+    if (echo.range < params_.least_range || std::abs(to_seconds(view.stamp - echo.stamp)) > params_.together) continue;
+    const Point2 at = inverse(view.odom_from_sensor) * echo.odom_from_sensor * Point2{echo.range, 0.0};
+    const long middle = view.sample_to(at);
+    const auto cone = static_cast<long>(std::ceil(0.5 * echo.field_of_view / view.bearing_step));
+    if (norm(at) > params_.near || middle - cone < 0 || middle + cone >= samples) continue;
+    const auto first = view.ranges.begin() + (middle - cone);
+    if (std::all_of(first, first + 2 * cone + 1, [](float range) { return range == kNoAnswer; })) places.push_back(at);
+  }
+  return places;
 }
 
 bool RingCheck::follows(const Vote& vote, const RangeLaw& law) const {
@@ -110,27 +126,76 @@ bool RingCheck::contradicts(const RangeLaw& law, Time since) const {
   return agree >= params_.least_agree && agree >= params_.agrees * compared;
 }
 
-std::optional<double> RingCheck::agreement() const {
-  int compared = 0;
-  int agree = 0;
-  for (const Vote& vote : votes_) {
-    compared += vote.reading > 0.0 ? 1 : 0;
-    agree += vote.agrees ? 1 : 0;
+RingCheck::Agreement RingCheck::agreement_of(const Votes& votes) {
+  Agreement agreement;
+  for (const Vote& vote : votes) {
+    agreement.compared += vote.reading > 0.0 ? 1 : 0;
+    agreement.agree += vote.agrees ? 1 : 0;
   }
-  if (compared < params_.least_agree) return std::nullopt;
-  return static_cast<double>(agree) / compared;
+  return agreement;
+}
+
+std::optional<double> RingCheck::agreement() const {
+  const Agreement agreement = agreement_of(votes_);
+  if (agreement.compared < params_.least_agree) return std::nullopt;
+  return static_cast<double>(agreement.agree) / agreement.compared;
+}
+
+void RingCheck::collect(const SweepView& view, const Pose2& odom_from_sensor, std::span<const RingEcho> echoes,
+                        Votes& votes) const {
+  votes.resize(echoes.size());
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    if (auto vote = vote_of(echoes[i], view, odom_from_sensor)) votes[i] = *vote;
+    if (votes[i].reading > 0.0 && view.stamp - votes[i].stamp > seconds(params_.memory)) votes[i] = {};
+  }
+}
+
+Pose2 RingCheck::odom_from_sensor_at(Time time) const {
+  const auto after = std::find_if(trail_.begin(), trail_.end(), [&](const Step& step) { return step.stamp >= time; });
+  if (after == trail_.begin() || after == trail_.end()) return trail_.front().odom_from_sensor;
+  const auto before = std::prev(after);
+  return after->stamp - time < time - before->stamp ? after->odom_from_sensor : before->odom_from_sensor;
+}
+
+bool RingCheck::stands(const SweepView& view) const {
+  if (view.stamp - trail_.front().stamp < seconds(params_.rest)) return false;
+  return std::all_of(trail_.begin(), trail_.end(), [&](const Step& step) {
+    if (view.stamp - step.stamp > seconds(params_.rest)) return true;
+    const Pose2 moved = inverse(step.odom_from_sensor) * view.odom_from_sensor;
+    return norm(moved.position()) <= params_.rest_way && std::abs(moved.theta.radians()) <= params_.rest_turn;
+  });
+}
+
+std::optional<double> RingCheck::lateness(const SweepView& view, std::span<const RingEcho> echoes) {
+  const Agreement now = agreement_of(votes_);
+  // A laser that is mounted otherwise disagrees at rest as well.
+  if (now.compared >= params_.least_late && now.is_at_least(params_.agrees_at_rest) && stands(view))
+    has_agreed_at_rest_ = true;
+  if (!has_agreed_at_rest_ || now.is_at_least(params_.agrees)) return std::nullopt;
+  std::optional<double> best;
+  double most = params_.agrees_late;
+  for (std::size_t k = 0; k < kLags.size(); ++k) {
+    if (view.stamp - trail_.front().stamp < seconds(kLags[k])) break;
+    collect(view, odom_from_sensor_at(view.stamp - seconds(kLags[k])), echoes, late_votes_[k]);
+    const Agreement late = agreement_of(late_votes_[k]);
+    if (late.compared < params_.least_late || !late.is_at_least(most)) continue;
+    most = static_cast<double>(late.agree) / late.compared;
+    best = kLags[k];
+  }
+  if (now.compared < params_.least_late || now.is_at_least(params_.disagrees)) return std::nullopt;
+  return best;
 }
 
 RingCheck::Finding RingCheck::add(const SweepView& view, std::span<const RingEcho> echoes) {
-  votes_.resize(echoes.size());
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
-    if (auto vote = vote_of(echoes[i], view)) votes_[i] = *vote;
-    if (votes_[i].reading > 0.0 && view.stamp - votes_[i].stamp > seconds(params_.memory)) votes_[i] = {};
-  }
+  if (!trail_.empty() && view.stamp <= trail_.back().stamp) trail_.clear();  // the clock was set back
+  trail_.push_back({view.stamp, view.odom_from_sensor});
+  while (view.stamp - trail_.front().stamp > seconds(kLags.back() + params_.memory)) trail_.pop_front();
+  collect(view, view.odom_from_sensor, echoes, votes_);
   Finding finding;
   finding.too_long = law();
   const std::optional<double> share = agreement();
   finding.in_order = share && *share >= params_.agrees;
+  if (!finding.too_long) finding.late = lateness(view, echoes);
   return finding;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "docent/base/time.h"
@@ -37,6 +40,7 @@ struct RingCheckParams {
   double memory = 0.9;         ///< [s] in which all sensors of a slow ring have spoken twice
   double least_range = 0.1;    ///< [m] nearer, an infrared sensor folds over
   double most_range = 3.0;     ///< [m] farther echoes are of anything
+  double near = 1.0;           ///< [m] farther echoes than this may be of low things and glass
   double aside = 0.25;         ///< [rad] beyond the nominal cone sound still comes back from
   double noise = 0.1;          ///< [m] between an echo and a beam that met the same,
   double per_metre = 0.05;     ///< [m/m] and more with the distance: the speed of sound, and calibration
@@ -46,9 +50,16 @@ struct RingCheckParams {
   double most_agree = 0.25;    ///< and at most so many agree with the laser
   double least_offset = 0.25;  ///< [m] less is clothes, and where the ring is said to be
   double least_factor = 1.3;
-  double agrees = 0.7;   ///< of the sensors, and
-  int least_agree = 6;   ///< so many agree: the laser is in order
-  double differs = 2.0;  ///< tolerances between what a law and the truth would read: else nothing contradicts it
+  double agrees = 0.7;          ///< of the sensors, and
+  int least_agree = 6;          ///< so many agree: the laser is in order
+  double disagrees = 0.5;       ///< of the sensors at most agree with sweeps that are old,
+  double agrees_late = 0.75;    ///< and so many if the sweeps are as old as is tried
+  int least_late = 8;           ///< of so many
+  double rest_way = 0.02;       ///< [m] and
+  double rest_turn = 0.03;      ///< [rad] less within
+  double rest = 0.9;            ///< [s]: it stands, and old sweeps are right
+  double agrees_at_rest = 0.8;  ///< of the sensors: the laser is mounted as it is said
+  double differs = 2.0;         ///< tolerances between what a law and the truth would read: else nothing contradicts it
 };
 
 /// Whether sonars and infrared sensors meet things where a laser says that they are. They see more than it: glass and
@@ -61,6 +72,7 @@ class RingCheck {
   struct Finding {
     bool in_order = false;
     std::optional<RangeLaw> too_long{};  ///< by this law
+    std::optional<double> late{};        ///< [s] the sweeps fit the ring only if they are so old
   };
   /// One sweep. O(echoes * samples of a cone).
   [[nodiscard]] Finding add(const SweepView& view, std::span<const RingEcho> echoes);
@@ -69,6 +81,9 @@ class RingCheck {
   [[nodiscard]] bool contradicts(const RangeLaw& law, Time since) const;
   /// Share of the sensors that agree; nullopt: too few have met something.
   [[nodiscard]] std::optional<double> agreement() const;
+  /// Where the ring hears something near and the laser of this sweep says that nothing is there, in the whole cone: [m]
+  /// in the laser's frame.
+  [[nodiscard]] std::vector<Point2> unanswered(const SweepView& view, std::span<const RingEcho> echoes) const;
 
  private:
   struct Vote {
@@ -79,13 +94,35 @@ class RingCheck {
     bool agrees = false;
     bool is_shorter = false;  ///< the laser says that it is nearer
   };
-  [[nodiscard]] std::optional<Vote> vote_of(const RingEcho& echo, const SweepView& view) const;
+  using Votes = std::vector<Vote>;  ///< [echoes] the last of each sensor
+  struct Agreement {
+    int compared = 0;
+    int agree = 0;
+    [[nodiscard]] bool is_at_least(double share) const { return agree >= share * compared; }
+  };
+  [[nodiscard]] static Agreement agreement_of(const Votes& votes);
+  void collect(const SweepView& view, const Pose2& odom_from_sensor, std::span<const RingEcho> echoes,
+               Votes& votes) const;
+  [[nodiscard]] std::optional<Vote> vote_of(const RingEcho& echo, const SweepView& view,
+                                            const Pose2& odom_from_sensor) const;
+  /// Whether the sweeps are old. The ring hears the same walls as a laser whose wheels slip.
+  [[nodiscard]] std::optional<double> lateness(const SweepView& view, std::span<const RingEcho> echoes);
+  [[nodiscard]] bool stands(const SweepView& view) const;
+  [[nodiscard]] Pose2 odom_from_sensor_at(Time time) const;
   [[nodiscard]] std::optional<RangeLaw> law() const;
   [[nodiscard]] double span_of(const RangeLaw& law) const;
   [[nodiscard]] bool follows(const Vote& vote, const RangeLaw& law) const;
 
   RingCheckParams params_;
-  std::vector<Vote> votes_;  ///< [echoes] the last of each sensor
+  static constexpr std::array<double, 6> kLags{0.5, 0.75, 1.0, 1.5, 2.0, 3.0};  // [s]
+  Votes votes_;
+  std::array<Votes, kLags.size()> late_votes_;  ///< if the sweeps were so old
+  struct Step {
+    Time stamp;
+    Pose2 odom_from_sensor;
+  };
+  std::deque<Step> trail_;  ///< of the last seconds
+  bool has_agreed_at_rest_ = false;
 };
 
 }  // namespace docent::collision_avoidance

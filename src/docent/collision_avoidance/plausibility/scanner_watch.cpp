@@ -346,7 +346,11 @@ void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Findin
              .by = Lie::By::rings,
              .law = *found.too_long},
             view.stamp);
-  } else if (lie_ && !lie_->is_late) {
+  }
+  late_row_ = found.late ? late_row_ + 1 : 0;
+  if (late_row_ >= params_.rings_sure_late) {
+    convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::rings, .is_late = true}, view.stamp);
+  } else if (lie_ && !lie_->is_late && rings_row_ == 0) {
     const bool is_in_order =
         lie_->by == Lie::By::rings ? found.in_order : rings_.contradicts(lie_->law, lie_->first_sign);
     if (is_in_order) acquit();
@@ -392,6 +396,8 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
       const double elapsed = to_seconds(view.stamp - before_->stamp);
       if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
       near_.add(*before_, view, expected_, form_);
+      near_.hear(view, rings_.unanswered(view, rings),
+                 can_be_too_near(sweep, std::max(sweep.min_range, near_.blind_within()), limits_));
     }
     judge_repeats(view, sweep, odom_from_base);
     judge_onset(view, others);
