@@ -38,26 +38,9 @@ MotionCheck::Share MotionCheck::share_of(const SweepView& view, const Pose2& now
 
 MotionCheck::Finding MotionCheck::count(Finding finding) {
   row_ = finding == last_ ? row_ + 1 : 1;
-  if (finding != Finding::late) moves_on_ = 0;
   last_ = finding;
   if (finding == Finding::in_order || finding == Finding::nothing) return finding;
   return row_ >= params_.sure ? finding : Finding::nothing;
-}
-
-bool MotionCheck::has_moved(const Pose2& from, const Pose2& to) const {
-  const Pose2 moved = inverse(from) * to;
-  return norm(moved.position()) >= params_.between_way || std::abs(moved.theta.radians()) >= params_.between_turn;
-}
-
-void MotionCheck::watch_moving_on(const SweepView& view) {
-  if (view.stamp - moved_ < seconds(params_.stands)) return;
-  const Pose2 late_at = odom_from_sensor_at(view.stamp - seconds(lag_));
-  if (lag_ != late_by_) moves_on_ = 0;
-  if (moves_on_ == 0 || has_moved(late_at_, late_at)) {
-    ++moves_on_;
-    late_at_ = late_at;
-    late_by_ = lag_;
-  }
 }
 
 bool MotionCheck::differs(const Pose2& a, const Pose2& b) const {
@@ -104,7 +87,6 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
     if (is_trail_cut_ && trail_.front().stamp > from_->stamp - seconds(lag)) break;  // not known how it moved then
     if (is_fast && try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
   }
-  if (finding == Finding::late) watch_moving_on(view);
   if (finding != Finding::nothing) return finding;
   const bool agrees = here.compared >= params_.law.least && here.agrees >= params_.agrees && !may_be_late;
   return agrees ? Finding::in_order : Finding::nothing;
@@ -122,17 +104,13 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
   const double turn = std::abs(moved.theta.radians());
   Finding finding = Finding::nothing;
   const bool is_far = way >= params_.least_way || turn >= params_.least_turn;
-  if (has_moved(moved_at_, view.odom_from_sensor)) {
-    moved_ = view.stamp;
-    moved_at_ = view.odom_from_sensor;
-  }
-  const bool may_move_on = moved_ != Time{} && view.stamp - moved_ <= seconds(params_.rests);
-  const bool is_other = has_moved(compared_at_, view.odom_from_sensor);
-  if (is_far && (is_other || may_move_on) && view.stamp - compared_ >= seconds(params_.between)) {
+  const Pose2 since = inverse(compared_at_) * view.odom_from_sensor;
+  const bool is_other =
+      norm(since.position()) >= params_.between_way || std::abs(since.theta.radians()) >= params_.between_turn;
+  if (is_far && is_other && view.stamp - compared_ >= seconds(params_.between)) {
     compared_ = view.stamp;
-    const Finding found = compare(view, may_be_late);
-    if (is_other || found == Finding::late) finding = count(found);
-    if (is_other) compared_at_ = view.odom_from_sensor;
+    compared_at_ = view.odom_from_sensor;
+    finding = count(compare(view, may_be_late));
     if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
       finding = Finding::nothing;
   }

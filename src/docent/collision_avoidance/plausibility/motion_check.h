@@ -26,9 +26,6 @@ struct MotionCheckParams {
   double explains = 0.72;      ///< of the samples must follow another explanation,
   double better = 0.25;        ///< and so many more than odometry's
   int sure = 4;                ///< comparisons in succession
-  int sure_moves_on = 3;       ///< of them, while the wheels stand and late sweeps move on
-  double stands = 0.15;        ///< [s] since they moved
-  double rests = 3.0;          ///< [s] after it stands late sweeps still move
   double differs_way = 0.08;   ///< [m] between two explanations, else they are one
   double differs_turn = 0.06;  ///< [rad] likewise
   double late = 0.5;           ///< [s] later sweeps must look otherwise before one that was late is believed,
@@ -49,15 +46,13 @@ class MotionCheck {
   Finding add(const SweepView& view, bool may_be_late = false);
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
-  /// The last `late` sweeps moved on while the wheels stood, as those had moved `lag` before: no slip does.
-  [[nodiscard]] bool moves_on() const { return moves_on_ >= params_.sure_moves_on; }
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
   void forget() {
     from_.reset();
     trail_.clear();
     is_trail_cut_ = true;
     last_ = Finding::nothing;
-    row_ = moves_on_ = 0;
+    row_ = 0;
   }
 
  private:
@@ -69,8 +64,6 @@ class MotionCheck {
   [[nodiscard]] Finding compare(const SweepView& view, bool may_be_late);
   [[nodiscard]] Pose2 now_from_then_if_late(const SweepView& view, double lag) const;
   [[nodiscard]] bool would_late_ones_differ(const SweepView& view, const Pose2& by_odometry, double agrees);
-  void watch_moving_on(const SweepView& view);
-  [[nodiscard]] bool has_moved(const Pose2& from, const Pose2& to) const;
   [[nodiscard]] bool differs(const Pose2& a, const Pose2& b) const;
   [[nodiscard]] Pose2 odom_from_sensor_at(Time time) const;
   [[nodiscard]] Finding count(Finding finding);
@@ -86,15 +79,10 @@ class MotionCheck {
   std::vector<float> expected_;
   Time compared_{};
   Pose2 compared_at_;  ///< odom_from_sensor
-  Pose2 moved_at_;     ///< odom_from_sensor, when it had moved last
   Finding last_ = Finding::nothing;
   int row_ = 0;
   double scale_ = 1.0;
   double lag_ = 0.0;
-  int moves_on_ = 0;  ///< comparisons of the row
-  Pose2 late_at_;     ///< odom_from_sensor `lag_` before the last of them
-  double late_by_ = 0.0;
-  Time moved_{};  ///< last
   double unproven_ = 0.0;
 };
 

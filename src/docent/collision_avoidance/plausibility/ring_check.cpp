@@ -105,11 +105,14 @@ std::optional<RangeLaw> RingCheck::law() const {
   };
   count(by_offset);
   count(by_scale);
-  best = by_offset.as_law > by_scale.as_law ? by_offset : by_scale;
-  const bool is_law = best.offset >= params_.least_offset || best.scale >= params_.least_factor;
-  if (!is_law || best.as_law < params_.least || best.as_law < params_.share * best.compared ||
-      best.as_expected > params_.most_agree * best.compared || span_of(best) < params_.least_span)
-    return std::nullopt;
+  const auto is_law = [&](const RangeLaw& law) {
+    return (law.offset >= params_.least_offset || law.scale >= params_.least_factor) && law.as_law >= params_.least &&
+           law.as_law >= params_.share * law.compared && law.as_expected <= params_.most_agree * law.compared &&
+           span_of(law) >= params_.least_span;
+  };
+  // Where all things are about as far, both explain them.
+  best = by_offset.as_law >= by_scale.as_law || !is_law(by_scale) ? by_offset : by_scale;
+  if (!is_law(best)) return std::nullopt;
   return best;
 }
 

@@ -9,13 +9,10 @@
 namespace docent::collision_avoidance::ring_check_test {
 namespace {
 
-/// A laser in the middle of a ring of sonars, in a room with people.
+/// A laser in the middle of a ring of sonars, in a room.
 class RingCheckTest : public ::testing::Test {
  protected:
-  RingCheckTest() {
-    room.box(-2, -2, 3, 2.5);
-    room.discs = {{{1.5, 0.8}, 0.25}, {{1.2, -1.2}, 0.25}};
-  }
+  RingCheckTest() { room.box(-2, -1.6, 2.2, 1.4); }
   /// The last of some sweeps, each with all of the ring. @param heard  by the ring
   RingCheck::Finding look(double scale, double offset, const RoomForTest& heard, double late = 0.0) {
     RingCheck::Finding found;
@@ -53,7 +50,7 @@ TEST_F(RingCheckTest, AnOffsetAndAFactorShowAtOnce) {
 
 TEST_F(RingCheckTest, ALowBenchIsNoLie) {
   RoomForTest heard = room;
-  heard.walls.push_back({{2.5, -2.0}, {2.5, 2.5}});  // half a metre before the wall ahead
+  heard.walls.push_back({{1.7, -1.6}, {1.7, 1.4}});  // half a metre before the wall ahead
   const auto found = look(1.0, 0.0, heard);
   EXPECT_FALSE(found.too_long);
 }

@@ -256,21 +256,8 @@ void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
 }
 
-bool ScannerWatch::are_old_sweeps(Time now, std::span<const Word> others) const {
-  if (motion_.lag() < params_.late) return false;
-  // Wheels that slip look the same: but to all scanners, not to what hears the same walls, and not while they stand.
-  if (const auto agreement = rings_.agreement()) return *agreement <= params_.rings_differ;
-  const auto moves = [&](const Word& other) {
-    return other.moves != Time{} && now - other.moves <= seconds(params_.at_once);
-  };
-  return motion_.moves_on() || std::any_of(others.begin(), others.end(), moves);
-}
-
-void ScannerWatch::judge_motion(const SweepView& view, std::span<const Word> others) {
-  const bool is_another_late = std::any_of(others.begin(), others.end(), [&](const Word& other) {
-    return other.late != Time{} && view.stamp - other.late <= seconds(params_.at_once);
-  });
-  switch (motion_.add(view, is_another_late || (lie_ && lie_->is_late))) {
+void ScannerWatch::judge_motion(const SweepView& view) {
+  switch (motion_.add(view, lie_ && lie_->is_late)) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();
@@ -282,12 +269,9 @@ void ScannerWatch::judge_motion(const SweepView& view, std::span<const Word> oth
       break;
     }
     case MotionCheck::Finding::late:
-      word_.late = view.stamp;
-      if (are_old_sweeps(view.stamp, others))
-        convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+      // Wheels that slip look the same: old sweeps are known by their repetition and by sonars, delays by `calibrate`.
       break;
     case MotionCheck::Finding::in_order:
-      if (is_another_late) word_.moves = view.stamp;
       if (!lie_) {
         is_proven_ = true;
       } else if (is_tried(view.stamp)) {
@@ -401,7 +385,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     }
     judge_repeats(view, sweep, odom_from_base);
     judge_onset(view, others);
-    judge_motion(view, others);
+    judge_motion(view);
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);
     if (!form_.is_silent && !lie_) look_for_walls(view);

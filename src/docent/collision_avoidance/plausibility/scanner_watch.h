@@ -47,9 +47,6 @@ struct ScannerWatchParams {
   double map_alone = 0.8;         ///< of the samples follow a law by the map where no other scanner fits it
   double returns = 0.35;          ///< of the samples at least as before the lie, or by its law: people have moved since
   double clearly = 2.0;           ///< times as many as of the other
-  double late = 0.5;              ///< [s] or later: old sweeps; less is a delay, which `calibrate` makes up for
-  double rings_differ = 0.55;     ///< of sonars and infrared sensors at most agree with old sweeps
-  double at_once = 0.5;           ///< [s] between what two scanners say of one motion
   int sure = 2;                   ///< sweeps that say the same
   int rings_sure = 3;             ///< likewise, against sonars and infrared sensors
   int rings_sure_late = 4;        ///< likewise, of old sweeps
@@ -86,8 +83,6 @@ class ScannerWatch {
     std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
     Time fits_map{};                   ///< when it was last as the map has it
     std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
-    Time late{};                       ///< when it last seemed to move later than the wheels
-    Time moves{};                      ///< when it last moved with the wheels, while another seemed to be late
   };
   [[nodiscard]] const Word& word() const { return word_; }
 
@@ -136,10 +131,9 @@ class ScannerWatch {
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
-  void judge_motion(const SweepView& view, std::span<const Word> others);
+  void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
-  [[nodiscard]] bool are_old_sweeps(Time now, std::span<const Word> others) const;
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);

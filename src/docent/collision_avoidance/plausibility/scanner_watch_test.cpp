@@ -206,6 +206,9 @@ class WatchedWithRing : public Watched {
 };
 
 TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
+  room.walls.clear();
+  room.discs.clear();
+  room.box(-2, -1.6, 2.2, 1.4);
   EXPECT_EQ(turn(0.5, 0.0), "");
   const Lie lie = [](SensorSweep& sweep) { each(sweep, [](float range) { return range + 0.5F; }); };
   watch = ScannerWatch{"front laser", limits, nullptr};
