@@ -21,7 +21,6 @@ WATCHED_S = 12.0  # [s] after a lie has begun
 NEAR_WATCHED_S = 60.0  # [s]: until something comes near
 STARTS_S = 45.0  # [s] of a run that begins with a lie
 MOVES = 0.02  # [m/s]
-NEAR_GAP = 0.28  # [m] from the outline: within the 0.6 m of the lie, and what the truth measures from another place
 SENSORS = {"front": ["laser_front"], "rear": ["laser_rear"], "both": ["laser_front", "laser_rear"]}
 SAYS = {  # kind: what the reason must hold beside the scanner's name
     "units": ["wrong units"],
@@ -40,7 +39,7 @@ MUSEUMS = ["bonn", "smithsonian"]
 CROWDS = ["busy", "packed"]
 LOOP_S = 3.0  # [s] that a loop takes: from the start, it must have been said once
 SLICE_KINDS = ["units", "silent", "sector", "offset", "scaled", "stale"]
-SLICE_STARTS = ["units", "silent", "sector", "offset"]  # of these also from the start: the motion takes a while to tell the others
+SLICE_STARTS = ["units", "silent", "sector", "offset", "scaled", "stale"]  # of these also from the start
 PARTS = [*SAYS, "alarms"]
 CRIPPLED_KINDS = ["units", "silent"]
 
@@ -68,8 +67,7 @@ class Outcome:
 
     def __init__(self, kind, which, at, rows):
         after = [row for row in rows if row["time"] >= at]
-        # An offset of all scanners from the start looks like another place until the robot has found its own.
-        self.due = None if (kind, which, at) == ("offset", "both", 0.0) else self.due_of(kind, at, after)
+        self.due = self.due_of(kind, at, after)
         names = ["front laser", "rear laser"] if which == "both" else [f"{which} laser"]
         said = [row for row in after if any(name in row["reason"] for name in names) and any(word in row["reason"] for word in SAYS[kind])]
         self.said_s = float("inf") if not said else max(0.0, said[0]["time"] - self.due) if self.due is not None else 0.0
@@ -82,7 +80,7 @@ class Outcome:
     def due_of(self, kind, at, after):
         """[s] from when on it can be known; None: it never could."""
         if kind in NEAR_KINDS:
-            near = [row["time"] for row in after if min(row["nearest_solid"], row["nearest_person"]) < NEAR_GAP]
+            near = [row["time"] for row in after if row["left_out"]]
             return near[0] if near else None
         if at > 0.0:
             return at

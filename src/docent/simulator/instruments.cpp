@@ -278,6 +278,12 @@ double Instruments::blocked_share() const {
   return share;
 }
 
+double Instruments::left_out() const {
+  double angle = 0.0;
+  for (const Scanner& scanner : scanners_) angle += scanner.lies.left_out();
+  return angle;
+}
+
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
                                 std::span<const Disc> people) {
   constexpr std::uint64_t kSlots = 40;  // 0.4 s

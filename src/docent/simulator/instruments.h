@@ -53,6 +53,8 @@ class Instruments {
   /// Beams of the last sweep of all scanners that met a person.
   [[nodiscard]] int met(std::size_t person) const;
   [[nodiscard]] double blocked_share() const;  ///< beams of the last sweep that met people
+  /// [rad] that the lies of all scanners leave out of their last sweeps because something is near there.
+  [[nodiscard]] double left_out() const;
   /// True when a ray of some scanner, within its field and its range, reaches a person past walls and other people.
   [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const;
 

@@ -234,6 +234,11 @@ void SimulatedMuseum::Impl::publish() {
   if (every(100)) instruments_.publish_battery(time_, battery_);
   if (every(10)) {
     publish_truth();
+    constexpr double kTold = 0.17;  // [rad] ten degrees
+    if (const bool leaves_out = instruments_.left_out() >= kTold; leaves_out != leaves_out_) {
+      leaves_out_ = leaves_out;
+      offer("left_out", leaves_out ? "begins" : "ends");
+    }
     auto wishes = visitors_.step(time_, time_ - start_);
     for (const std::string& id : wishes.offered) offer("request", id);
     for (auto& request : wishes.requests) requests_.publish(std::move(request));

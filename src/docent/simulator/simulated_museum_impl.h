@@ -130,6 +130,7 @@ class SimulatedMuseum::Impl {
   std::uint64_t steps_ = 0;
   double distance_ = 0.0;
   bool has_fallen_ = false;
+  bool leaves_out_ = false;  ///< a lying scanner, what is near
   std::optional<Steersman> steersman_;
   double steered_until_ = 0.0;  ///< [s] run time; 0: to the end
   std::size_t next_event_ = 0;

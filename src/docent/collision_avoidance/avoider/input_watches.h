@@ -61,7 +61,7 @@ class InputWatches {
     std::vector<ScannerWatch::Word> others;
     for (std::size_t i = 0; i < scanners_.size(); ++i)
       if (i != laser) others.push_back(scanners_[i].word());
-    return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known, others);
+    return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known, others, echoes_.all());
   }
   /// Where the robot believes to be, odometry's frame at `stamp`. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) {
@@ -69,10 +69,12 @@ class InputWatches {
   }
   void hear_sonar(Time now, Time stamp, std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
     sonars_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+    echoes_.hear(0, index, reading, odom_from_base);
   }
   void hear_infrared(Time now, Time stamp, std::size_t index, const SonarReading& reading,
                      const Pose2& odom_from_base) {
     infrareds_.hear(now, stamp, index, reading.range, reading.range < reading.max_range, odom_from_base);
+    echoes_.hear(1, index, reading, odom_from_base);
   }
   void hear_lines(Time now, Time stamp, const std::string& camera) { cameras_[camera].receive(now, stamp); }
   void feel(Time now, Time stamp, std::span<const std::uint8_t> segments, std::uint32_t scan) {
@@ -102,6 +104,7 @@ class InputWatches {
   std::vector<std::string> lasers_;
   std::vector<Freshness> sweeps_;       ///< [lasers]
   std::vector<ScannerWatch> scanners_;  ///< [lasers]
+  RingEchoes echoes_;
   OdometryWatch odometry_;
   RingWatch sonars_{"sonar reading", "sonars"};
   RingWatch infrareds_{"infrared reading", "infrared sensors"};

@@ -38,17 +38,21 @@ bool NearThings::find_gaps(const SweepView& view, std::span<const float> expecte
     while (i < samples && view.ranges[i] == kNoAnswer) ++i;
     if (i - first < static_cast<std::size_t>(params_.several) || i == samples || !view.met(first - 1) || !view.met(i))
       continue;
-    const double flank = std::max(view.ranges[first - 1], view.ranges[i]);
-    if (flank > params_.within) continue;
+    const auto [nearer, flank] =
+        std::minmax({static_cast<double>(view.ranges[first - 1]), static_cast<double>(view.ranges[i])});
+    // A scanner that is blind within some distance loses a thing's middle and keeps both sides, from that distance on.
+    // Two people between whom somebody has left are seldom as far.
+    if (flank > params_.within || flank - nearer > params_.alike) continue;
     std::vector<Point2> in_gap;
     for (std::size_t k = first; k < i; ++k) {
-      if (!(expected[k] <= flank + params_.flank)) continue;
+      if (!(static_cast<double>(expected[k]) <= flank + params_.flank)) continue;
       const Angle bearing = Angle::radians(view.first_bearing + static_cast<double>(k) * view.bearing_step);
       in_gap.push_back(view.odom_from_sensor * (static_cast<double>(expected[k]) * unit(bearing)));
     }
     if (static_cast<double>(in_gap.size()) < params_.gap_known * static_cast<double>(i - first)) continue;
     found = true;
-    if (gaps_ >= 1) blind_within_ = std::max(blind_within_, flank);
+    if (gaps_ >= 1 && std::abs(flank - last_flank_) <= params_.alike) blind_within_ = std::max(blind_within_, flank);
+    last_flank_ = flank;
     gone.insert(gone.end(), in_gap.begin(), in_gap.end());
   }
   return found;
@@ -87,7 +91,25 @@ void NearThings::add(const SweepView& before, const SweepView& view, std::span<c
   if (static_cast<int>(gone.size()) < params_.several) gone.clear();
   gaps_ = find_gaps(view, expected, gone) ? gaps_ + 1 : 0;
   hold(view, gone);
-  sure_ = places_.empty() && form.too_near.empty() ? 0 : sure_ + 1;
+  sure_ = places_.empty() && form.too_near.empty() && heard_ < params_.heard ? 0 : sure_ + 1;
+}
+
+void NearThings::hear(const SweepView& view, std::span<const Point2> heard, bool may_be_blind) {
+  std::erase_if(seen_, [&](const Seen& seen) { return view.stamp - seen.stamp > seconds(params_.seen_for); });
+  std::vector<Point2> left_out;
+  for (const Point2 at : heard) {
+    const Point2 in_odom = view.odom_from_sensor * at;
+    const bool is_stated = may_be_blind && norm(at) <= nearest(view) + params_.same;
+    const bool was_seen = std::any_of(seen_.begin(), seen_.end(), [&](const Seen& seen) {
+      return distance(seen.in_odom, in_odom) <= params_.seen_at;
+    });
+    if (is_stated || was_seen) left_out.push_back(in_odom);
+  }
+  heard_ = static_cast<int>(left_out.size()) >= params_.heard ? heard_ + 1 : 0;
+  if (heard_ >= params_.heard) hold(view, left_out);
+  for (std::size_t i = 0; i < view.ranges.size(); ++i)
+    if (view.met(i) && view.ranges[i] <= params_.within)
+      seen_.push_back({view.stamp, view.odom_from_sensor * view.place(i)});
 }
 
 std::vector<BeamRun> NearThings::hidden_in(const SensorSweep& sweep, const Pose2& odom_from_sensor) const {

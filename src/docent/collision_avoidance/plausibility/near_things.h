@@ -18,10 +18,14 @@ struct NearThingsParams {
   double same = 0.05;      ///< [m] such places are one
   int sure = 2;            ///< sweeps until it is dropped
   int named = 4;           ///< sweeps until it is named: who steps aside before nothing is soon seen again
+  int heard = 2;           ///< echoes of what the scanner leaves out, and so many sweeps
+  double seen_for = 1.5;   ///< [s] after the scanner saw it,
+  double seen_at = 0.25;   ///< [m] so near to there, it is what is heard
   int several = 3;         ///< places that have gone at once
   double longest = 30.0;   ///< [s] a place is held
   double within = 1.2;     ///< [m] a scanner may be blind, whatever min_range it states
-  double flank = 0.1;      ///< [m] beyond the readings beside it a gap's thing was before
+  double alike = 0.12;     ///< [m] between the two readings beside it, and from one sweep to the next
+  double flank = 0.05;     ///< [m] beyond the readings beside it a gap's thing was before
   double gap_known = 0.6;  ///< of a gap's samples were that near
 };
 
@@ -35,12 +39,20 @@ class NearThings {
   /// @param before  the sweep before @param expected  [samples] [m] of it, NaN: nothing
   /// @param form  of this sweep, with the gaps that need no sweep before
   void add(const SweepView& before, const SweepView& view, std::span<const float> expected, const SweepForm& form);
+  /// What sonars and infrared sensors hear, and the scanner says that nothing is there: it counts where the scanner may
+  /// be blind as it states, or saw something there a moment ago. To be called after `add`.
+  /// @param heard  [m] in the scanner's frame @param may_be_blind  something outside the body can be too near
+  void hear(const SweepView& view, std::span<const Point2> heard, bool may_be_blind);
   /// [m] What is nearer the scanner does not see; 0: as far as is known, as it states.
   [[nodiscard]] double blind_within() const { return blind_within_; }
   /// Beams of a sweep that say "nothing" where something is held, each once.
   [[nodiscard]] std::vector<BeamRun> hidden_in(const SensorSweep& sweep, const Pose2& odom_from_sensor) const;
   [[nodiscard]] bool is_any_sure() const { return sure_ >= params_.named; }
-  void forget() { places_.clear(); }
+  void forget() {
+    places_.clear();
+    seen_.clear();
+    heard_ = 0;
+  }
 
  private:
   struct Place {
@@ -56,8 +68,15 @@ class NearThings {
 
   NearThingsParams params_;
   std::vector<Place> places_;
+  struct Seen {
+    Time stamp;
+    Point2 in_odom;
+  };
+  std::vector<Seen> seen_;  ///< lately, by the scanner, near
+  int heard_ = 0;           ///< sweeps in succession in which the ring heard what it leaves out
   int sure_ = 0;
-  int gaps_ = 0;  ///< sweeps in which one showed
+  int gaps_ = 0;             ///< sweeps in which one showed
+  double last_flank_ = 0.0;  ///< [m]
   double blind_within_ = 0.0;
 };
 

@@ -98,5 +98,25 @@ TEST_F(NearThingsTest, SomebodyWhoStepsAsideIsNotHeld) {
   }
 }
 
+TEST_F(NearThingsTest, WhatTheRingHearsIsThereThoughTheScannerNeverSawIt) {
+  const std::vector<Point2> heard{{0.4, 0.0}, {0.4, 0.1}};
+  room.min_range = 0.5;
+  for (int i = 0; i < 6; ++i) {
+    look({}, 0.5);
+    things.hear(view_of(room.sweep(5.0 + 0.1 * i, {}), {}), heard, true);
+  }
+  EXPECT_TRUE(things.is_any_sure());
+}
+
+TEST_F(NearThingsTest, ALowStoolInAHallIsNotWhatAScannerLeavesOut) {
+  const std::vector<Point2> heard{{0.4, 0.0}, {0.4, 0.1}};
+  room.min_range = 0.05;  // it says that it would see it, and has not
+  for (int i = 0; i < 6; ++i) {
+    look({}, 0.05);
+    things.hear(view_of(room.sweep(5.0 + 0.1 * i, {}), {}), heard, false);
+  }
+  EXPECT_FALSE(things.is_any_sure());
+}
+
 }  // namespace
 }  // namespace docent::collision_avoidance::near_things_test

@@ -49,10 +49,14 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       repeats_{params.repeats},
       sectors_{params.sectors},
       of_map_{params.sectors},
-      near_{params.near} {}
+      near_{params.near},
+      rings_{params.rings} {}
 
 void ScannerWatch::convict(Lie lie, Time when) {
-  if (!lie_) lie_ = std::move(lie);
+  if (!lie_) {
+    lie_ = std::move(lie);
+    lie_->first_sign = when;
+  }
   lie_->last_sign = when;
   is_proven_ = false;
 }
@@ -216,7 +220,8 @@ void ScannerWatch::judge_onset(const SweepView& view, std::span<const Word> othe
   if (lies_ == 0) suspected_ = view.stamp;
   word_.law = law;
   if (++lies_ < params_.sure) return;
-  const Verdict others_say = verdict(law, suspected_, others);
+  const Verdict others_say =
+      rings_.contradicts(law, suspected_) ? Verdict::carried_off : verdict(law, suspected_, others);
   if (others_say == Verdict::borne_out || (others_say == Verdict::none && is_clear(law, view))) {
     lies_ = 0;
     convict({.what = "the distances of the " + name_ + " are " + to_words(law),
@@ -256,6 +261,7 @@ void ScannerWatch::judge_motion(const SweepView& view) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();
+      if (rings_.contradicts(law, {})) break;
       convict({.what = "the distances of the " + name_ + " do not fit the motion: " + to_words(law),
                .by = Lie::By::motion,
                .law = law},
@@ -263,7 +269,7 @@ void ScannerWatch::judge_motion(const SweepView& view) {
       break;
     }
     case MotionCheck::Finding::late:
-      // Wheels that slip look the same: old sweeps are known by their repetition, delays by `calibrate`.
+      // Wheels that slip look the same: old sweeps are known by their repetition and by sonars, delays by `calibrate`.
       break;
     case MotionCheck::Finding::in_order:
       if (!lie_) {
@@ -298,7 +304,7 @@ void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> oth
   const bool is_too_long = found->lie && (found->lie->offset > 0.0 || found->lie->scale > 1.0);
   if (is_too_long) word_.by_map = found->lie;
   if (found->in_order) word_.fits_map = view.stamp;
-  if (is_too_long && is_borne_out_by_map(*found->lie, view.stamp, others)) {
+  if (is_too_long && !rings_.contradicts(*found->lie, {}) && is_borne_out_by_map(*found->lie, view.stamp, others)) {
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found->lie),
              .by = Lie::By::map,
              .law = *found->lie},
@@ -312,6 +318,27 @@ void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> oth
   if (found->fits) of_map_.look_for(view, map_.expected(), params_.map_patience);
   of_map_row_ = of_map_.runs().empty() ? 0 : of_map_row_ + 1;
   if (of_map_row_ >= params_.map_silences) sectors_.look_for(view, map_.expected(), params_.map_patience);
+}
+
+void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Finding& found) {
+  const bool does_map_fit = word_.fits_map != Time{} && word_.fits_map >= map_said_ &&
+                            view.stamp - word_.fits_map < seconds(params_.silence_map);
+  // Glass all round: the map has what the laser sees through it.
+  rings_row_ = found.too_long && !does_map_fit ? rings_row_ + 1 : 0;
+  if (rings_row_ >= params_.rings_sure) {
+    convict({.what = "the distances of the " + name_ + " are " + to_words(*found.too_long) + " for sonar and infrared",
+             .by = Lie::By::rings,
+             .law = *found.too_long},
+            view.stamp);
+  }
+  late_row_ = found.late ? late_row_ + 1 : 0;
+  if (late_row_ >= params_.rings_sure_late) {
+    convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::rings, .is_late = true}, view.stamp);
+  } else if (lie_ && !lie_->is_late && rings_row_ == 0) {
+    const bool is_in_order =
+        lie_->by == Lie::By::rings ? found.in_order : rings_.contradicts(lie_->law, lie_->first_sign);
+    if (is_in_order) acquit();
+  }
 }
 
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
@@ -331,7 +358,7 @@ void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
 }
 
 SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known,
-                                std::span<const Word> others) {
+                                std::span<const Word> others, std::span<const RingEcho> rings) {
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   base_from_sensor_ = sweep.base_from_sensor;
   newest_ = sweep.stamp;
@@ -345,6 +372,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     word_.broken = view.stamp;
   } else if (!form_.has_wrong_units) {
     if (before_) expect(*before_, inverse(view.odom_from_sensor) * before_->odom_from_sensor, view, expected_);
+    const RingCheck::Finding by_rings = rings_.add(view, rings);
     judge_silence(view);
     sectors_.follow(view);
     watch_for_breaks(view, others);
@@ -352,11 +380,14 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
       const double elapsed = to_seconds(view.stamp - before_->stamp);
       if (elapsed <= params_.onset) sectors_.look_for(view, expected_, elapsed);
       near_.add(*before_, view, expected_, form_);
+      near_.hear(view, rings_.unanswered(view, rings),
+                 can_be_too_near(sweep, std::max(sweep.min_range, near_.blind_within()), limits_));
     }
     judge_repeats(view, sweep, odom_from_base);
     judge_onset(view, others);
     judge_motion(view);
     judge_by_map(view, others);
+    judge_by_rings(view, by_rings);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);

@@ -13,6 +13,7 @@
 #include "docent/collision_avoidance/plausibility/motion_check.h"
 #include "docent/collision_avoidance/plausibility/near_things.h"
 #include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
+#include "docent/collision_avoidance/plausibility/ring_check.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
 #include "docent/collision_avoidance/watches/complaint.h"
 
@@ -26,6 +27,7 @@ struct ScannerWatchParams {
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
+  RingCheckParams rings{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out
   double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
@@ -46,6 +48,8 @@ struct ScannerWatchParams {
   double returns = 0.35;          ///< of the samples at least as before the lie, or by its law: people have moved since
   double clearly = 2.0;           ///< times as many as of the other
   int sure = 2;                   ///< sweeps that say the same
+  int rings_sure = 3;             ///< likewise, against sonars and infrared sensors
+  int rings_sure_late = 4;        ///< likewise, of old sweeps
   int good_again = 3;             ///< sweeps without a fault of form until it is forgotten
   double gone = 0.15;             ///< of the samples at most should still meet something: a silence is no wonder
   double people_stay = 3.0;       ///< [s] then those who were all that was seen may have left; walls have not
@@ -85,8 +89,9 @@ class ScannerWatch {
   /// The sweep as far as it is to be believed. @param odom_from_base  at its stamp
   /// @param is_motion_known  odometry is as fresh as the sweep: else it is judged by itself alone
   /// @param others  what the other scanners said last
+  /// @param rings  what sonars and infrared sensors heard last
   [[nodiscard]] SensorSweep judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known = true,
-                                  std::span<const Word> others = {});
+                                  std::span<const Word> others = {}, std::span<const RingEcho> rings = {});
   /// Where the robot believes to be. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) { map_.believe(stamp, map_from_odom, mass); }
 
@@ -99,14 +104,16 @@ class ScannerWatch {
  private:
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
-    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map.
-    enum class By { sweeps, motion, map };
+    /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map;
+    /// by sonars and infrared sensors.
+    enum class By { sweeps, motion, map, rings };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
     bool is_late = false;
     bool is_brief = false;  ///< may be a robot that was carried off: a little way tells
-    Time last_sign{};       ///< when it showed last
+    Time first_sign{};      ///< when it showed first,
+    Time last_sign{};       ///< and last
   };
   void judge_form(const SensorSweep& sweep);
   void judge_onset(const SweepView& view, std::span<const Word> others);
@@ -126,6 +133,7 @@ class ScannerWatch {
   void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
+  void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
@@ -150,6 +158,9 @@ class ScannerWatch {
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;
   NearThings near_;
+  RingCheck rings_;
+  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
+  int late_row_ = 0;   ///< or old
   Pose2 base_from_sensor_;
   SweepForm form_;
   enum class FormFault { none, units, covered, silent };

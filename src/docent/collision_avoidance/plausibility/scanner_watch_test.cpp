@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
+#include "docent/collision_avoidance/plausibility/ring_for_test.h"
 
 namespace docent::collision_avoidance::scanner_watch_test {
 namespace {
@@ -178,6 +179,51 @@ TEST_F(Watched, ARobotThatIsCarriedOffDoesNotBlameItsScanner) {
     at = elsewhere;
     watch = ScannerWatch{"front laser", limits, nullptr};
   }
+}
+
+/// With a ring of sonars round it.
+class WatchedWithRing : public Watched {
+ protected:
+  WatchedWithRing() { room.discs.push_back({{-1.5, 1.5}, 0.3}); }
+  /// @param late  sweeps @param slip  [rad] that the wheels turn a sweep, the robot does not
+  std::string turn(double duration, double turn_rate, const Lie& lie = {}, std::size_t late = 0, double slip = 0.0) {
+    for (int i = 0; i < static_cast<int>(std::lround(duration / 0.1)); ++i) {
+      time += 0.1;
+      at.theta = at.theta + Angle::radians(0.1 * turn_rate);
+      said.theta = said.theta + Angle::radians(0.1 * turn_rate + slip);
+      given.push_back(room.sweep(time, at));
+      SensorSweep sweep = given[given.size() > late ? given.size() - 1 - late : 0];
+      sweep.stamp = given.back().stamp;
+      if (late > 0) each(sweep, [&](float range) { return range + static_cast<float>(room.rng.normal(0.0, 1e-4)); });
+      if (lie) lie(sweep);
+      ring.hear(time, room, at, said);
+      believed = watch.judge(sweep, said, true, {}, ring.echoes.all());
+    }
+    return reason();
+  }
+  RingForTest ring;
+  Pose2 said;
+};
+
+TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
+  room.walls.clear();
+  room.discs.clear();
+  room.box(-2, -1.6, 2.2, 1.4);
+  EXPECT_EQ(turn(0.5, 0.0), "");
+  const Lie lie = [](SensorSweep& sweep) { each(sweep, [](float range) { return range + 0.5F; }); };
+  watch = ScannerWatch{"front laser", limits, nullptr};
+  EXPECT_EQ(turn(0.6, 0.0, lie), "the distances of the front laser are 0.5 m too long for sonar and infrared");
+  EXPECT_EQ(speed(), 0.0);
+  EXPECT_EQ(turn(1.5, 0.0), "");  // and is believed again
+}
+
+TEST_F(WatchedWithRing, OldSweepsAreToldFromWheelsThatSlip) {
+  EXPECT_EQ(turn(1.5, 0.0), "");
+  EXPECT_EQ(turn(1.0, 0.0, {}, 0, 0.035), "");  // 20 degrees
+  EXPECT_EQ(turn(3.0, 0.0), "");
+  EXPECT_EQ(turn(3.0, 1.0), "");
+  EXPECT_EQ(turn(2.0, 0.0, {}, 10), "");
+  EXPECT_EQ(turn(2.5, 1.0, {}, 10), "the front laser gives old sweeps");
 }
 
 /// Two scanners, one ahead and one behind.

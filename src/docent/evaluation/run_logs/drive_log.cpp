@@ -17,6 +17,9 @@ void DriveLog::add(const transport::TopicInfo& topic, Time time, const std::shar
   } else if (name == topics::kTrueContact.name) {
     const bool counts = is_contact(*static_cast<const docent_msgs::TrueContact*>(message.get()));
     ++(counts ? contacts_ : bumps_);
+  } else if (name == topics::kTrueOffer.name) {
+    const auto& offer = *static_cast<const docent_msgs::TrueOffer*>(message.get());
+    if (offer.kind == "left_out") leaves_out_ = offer.subject == "begins";
   } else if (name == topics::kAvoidState.name) {
     avoid_ = *static_cast<const docent_msgs::AvoidState*>(message.get());
     reason_ = avoid_.reason;
@@ -31,10 +34,10 @@ void DriveLog::add_row(const docent_msgs::TrueState& truth, Time time) {
   was_inside_ = truth.inside_area;
   std::array<char, 256> line{};
   const int size =
-      std::snprintf(line.data(), line.size(), "%.2f,%.3f,%.3f,%.2f,%.3f,%.3f,%.3f,%d,%d,%d,%.3f,%.3f,%s,%.3f,",
+      std::snprintf(line.data(), line.size(), "%.2f,%.3f,%.3f,%.2f,%.3f,%.3f,%.3f,%d,%d,%d,%.3f,%.3f,%d,%s,%.3f,",
                     to_seconds(time - first_), truth.x, truth.y, Angle::radians(truth.theta).degrees(), truth.linear,
                     truth.angular, truth.distance_m, contacts_, bumps_, violations_, truth.nearest_person_m,
-                    truth.nearest_solid_m, avoid_.state.c_str(), avoid_.speed_cap);
+                    truth.nearest_solid_m, leaves_out_ ? 1 : 0, avoid_.state.c_str(), avoid_.speed_cap);
   rows_.append(line.data(), static_cast<std::size_t>(std::max(0, size)));
   rows_ += reason_ + "\n";
 }
@@ -42,7 +45,7 @@ void DriveLog::add_row(const docent_msgs::TrueState& truth, Time time) {
 Result<void> DriveLog::save(const std::string& path) const {
   return write_file_atomically(path,
                                "time,x,y,heading,speed,turn_rate,distance,contacts,bumps,violations,nearest_person,"
-                               "nearest_solid,state,speed_cap,reason\n" +
+                               "nearest_solid,left_out,state,speed_cap,reason\n" +
                                    rows_);
 }
 

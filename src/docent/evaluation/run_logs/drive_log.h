@@ -14,7 +14,8 @@ namespace docent::evaluation {
 /// How the robot truly drives beside what `avoid` says of it, as CSV with a row for every true state (10 Hz): time [s]
 /// since the first truth; true x, y [m], heading [deg], speed [m/s] and turn rate [rad/s]; distance driven [m];
 /// contacts, bumps by people and area violations so far; room to the nearest person and to the nearest solid [m];
-/// avoid's state, speed cap [m/s] and reason (commas in it become semicolons).
+/// whether a scanner that lies leaves out something near (0, 1); avoid's state, speed cap [m/s] and reason (commas in
+/// it become semicolons).
 class DriveLog {
  public:
   /// Topics that do not matter are passed over.
@@ -31,6 +32,7 @@ class DriveLog {
   int contacts_ = 0;
   int bumps_ = 0;
   int violations_ = 0;
+  bool leaves_out_ = false;
   docent_msgs::AvoidState avoid_;
   std::string reason_;
   std::string rows_;

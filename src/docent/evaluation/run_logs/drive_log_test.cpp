@@ -19,10 +19,14 @@ TEST(DriveLog, HasARowForEveryTrueStateWithWhatAvoidSaidLast) {
   truth->nearest_solid_m = 0.4;
   log.add(transport::topic_info(topics::kTrueState), time_from_seconds(50.0), truth);
   log.add(transport::topic_info(topics::kAvoidState), time_from_seconds(50.05), avoid);
+  auto offer = std::make_shared<docent_msgs::TrueOffer>();
+  offer->kind = "left_out";
+  offer->subject = "begins";
+  log.add(transport::topic_info(topics::kTrueOffer), time_from_seconds(50.05), offer);
   log.add(transport::topic_info(topics::kTrueState), time_from_seconds(50.1), truth);
   EXPECT_EQ(log.rows(),
-            "0.00,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,,0.000,\n"
-            "0.10,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,driving,0.250,slow; and late\n");
+            "0.00,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,0,,0.000,\n"
+            "0.10,0.000,0.000,0.00,0.500,0.000,2.000,0,0,0,0.700,0.400,1,driving,0.250,slow; and late\n");
 }
 
 }  // namespace

@@ -68,7 +68,16 @@ void ScannerLies::repeat_old(Time now, const ScanOnItsWay& scan) const {
   if (old != told_.end()) scan.ranges = old->ranges;
 }
 
+void ScannerLies::leave_out(double nearest, const ScanOnItsWay& scan) {
+  for (float& range : scan.ranges) {
+    if (!(range < static_cast<float>(nearest))) continue;
+    range = kNothing;
+    left_out_ += static_cast<double>(scan.bearing_step);
+  }
+}
+
 void ScannerLies::tell(Time now, const ScanOnItsWay& scan) {
+  left_out_ = 0.0;
   if (lie_ && lie_->duration > 0.0 && now - since_ >= seconds(lie_->duration)) lie_.reset();
   const bool is_looped = lie_ && lie_->lie == Lie::looped;
   const double loop = is_looped ? lie_->amount.value_or(usual_amount(Lie::looped)) : 0.0;
@@ -90,9 +99,9 @@ void ScannerLies::tell(Time now, const ScanOnItsWay& scan) {
       return hide_sector(scan, lie_->bearing, static_cast<double>(amount));
     case Lie::too_near:
       scan.range_min = amount;
-      return change(scan, [&](float range) { return range < amount ? kNothing : range; });
+      return leave_out(amount, scan);
     case Lie::blind_near:
-      return change(scan, [&](float range) { return range < amount ? kNothing : range; });
+      return leave_out(amount, scan);
     case Lie::offset:
       return change(scan, [&](float range) { return std::max(0.0F, range + amount); });
     case Lie::scaled:

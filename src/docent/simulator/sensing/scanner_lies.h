@@ -25,12 +25,16 @@ class ScannerLies {
   /// Makes of what was measured at `now` what the driver says. To be called with every scan, lie or not: old sweeps are
   /// told again later.
   void tell(Time now, const ScanOnItsWay& scan);
+  /// [rad] of the last scan in which something is so near that the lie leaves it out.
+  [[nodiscard]] double left_out() const { return left_out_; }
 
  private:
   void repeat_old(Time now, const ScanOnItsWay& scan) const;
+  void leave_out(double nearest, const ScanOnItsWay& scan);
 
   std::optional<ScannerLie> lie_;
   Time since_{};
+  double left_out_ = 0.0;
   struct Sweep {
     Time stamp;
     std::vector<float> ranges;

@@ -57,6 +57,9 @@ TEST(ScannerLies, HideASectorAndWhatIsNear) {
   EXPECT_TRUE(std::isinf(near.ranges[1]));
   EXPECT_EQ(near.ranges[3], 0.7F);
   EXPECT_EQ(near.range_min, 0.6F);
+  EXPECT_NEAR(near.lies.left_out(), 2 * 0.52359878, 1e-6);
+  near.scan(1.1, 0.5F);
+  EXPECT_EQ(near.lies.left_out(), 0.0);
   Driver unsaid;
   unsaid.scan_with({.lie = Lie::blind_near});
   EXPECT_TRUE(std::isinf(unsaid.ranges[1]));
