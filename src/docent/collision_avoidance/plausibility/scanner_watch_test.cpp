@@ -33,7 +33,7 @@ class Watched : public ::testing::Test {
       time += 0.1;
       at = at * Pose2{0.1 * speed, 0.0, Angle::radians(turns)};
       SensorSweep sweep = room.sweep(time, at * really);
-      sweep.base_from_sensor = said;
+      sweep.base_from_sensor = nominal;
       given.push_back(sweep);
       if (lie) lie(sweep);
       believed = watch.judge(sweep, at);
@@ -53,8 +53,8 @@ class Watched : public ::testing::Test {
   double turns = 0.0;  ///< [rad] a sweep
   std::deque<SensorSweep> given;
   SensorSweep believed;
-  Pose2 said;    ///< where the scanner is said to be mounted, and
-  Pose2 really;  ///< where it is
+  Pose2 nominal;  ///< where the scanner is said to be mounted, and
+  Pose2 really;   ///< where it is
 };
 
 TEST_F(Watched, AScannerInOrderIsBelievedAndProvenByMotion) {
@@ -168,7 +168,7 @@ TEST_F(Watched, AMountThatIsCorrectedIsNoLie) {
   // What stood 0.3 m nearer by the old mount stands where it was.
   really = {0.3, 0.0, {}};
   EXPECT_EQ(drive(2.0, {}, 0.0), "");
-  said = really;
+  nominal = really;
   EXPECT_EQ(drive(2.0, {}, 0.0), "");
   EXPECT_EQ(drive(1.0), "");
 }
