@@ -25,7 +25,7 @@ def commit_of(root):
 
 def is_whole(options):
     """A run of everything, not of a part or with other numbers."""
-    return not (options.slice or options.no_crippled or options.part or options.seeds or options.minutes or options.museums
+    return not (options.slice or options.no_crippled or options.part or options.seeds or options.minutes or options.museums or options.cases
                 or options.crowds or options.reach or options.set or options.method)
 
 

@@ -128,6 +128,15 @@ def museums_of(options):
     return options.museums.split(",") if options.museums else ["bonn"] if options.slice else ["bonn", "smithsonian"]
 
 
+def chosen(named, options):
+    """Those of {name: case} that are asked for."""
+    wanted = options.cases.split(";") if options.cases else list(named)
+    unknown = [name for name in wanted if name not in named]
+    if unknown:
+        raise RuntimeError(f"--cases: no {', '.join(unknown)} among {'; '.join(named)}")
+    return [named[name] for name in wanted]
+
+
 def is_owed(case):
     return abs(case["heading"]) >= OWED_HEADING or math.hypot(case["x"], case["y"]) >= OWED_PLACE or case["late"] >= 0.06
 
@@ -141,7 +150,7 @@ def run_case(simulations, case, museum, seed, minutes, more=(), requests=0):
 
 def evaluate_mounts(simulations, verdict, options):
     museums = museums_of(options)
-    cases = [case for case in CASES if not options.slice or case["name"] in SLICE]
+    cases = chosen({case["name"]: case for case in CASES if not options.slice or case["name"] in SLICE}, options)
     minutes = options.minutes or (4.0 if options.slice else MINUTES)
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     jobs = [(case, museum, seed) for case in cases for museum in museums for seed in seeds]
@@ -198,7 +207,7 @@ def explore(simulations, museum, seed, off, more=()):
 
 def evaluate_starts(simulations, verdict, options):
     museums = museums_of(options)
-    starts = STARTS[2:3] if options.slice else STARTS
+    starts = chosen({" ".join(f"{value:g}" for value in off): off for off in (STARTS[2:3] if options.slice else STARTS)}, options)
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 5)))
     jobs = [(museum, seed, off) for off in starts for museum in museums for seed in seeds]
     runs = side_by_side([lambda job=job: explore(simulations, *job) for job in jobs], simulations.jobs)

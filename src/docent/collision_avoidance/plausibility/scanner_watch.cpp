@@ -72,6 +72,21 @@ void ScannerWatch::acquit() {
   is_proven_ = true;
 }
 
+void ScannerWatch::follow_mount(const SensorSweep& sweep) {
+  constexpr double kMatters = 0.02;      // [m] and
+  constexpr double kMattersTurn = 0.01;  // [rad]: less lies within the noise
+  const Pose2 moved = inverse(base_from_sensor_) * sweep.base_from_sensor;
+  const bool is_first = newest_ == Time{};
+  base_from_sensor_ = sweep.base_from_sensor;
+  if (is_first || (norm(moved.position()) < kMatters && std::abs(moved.theta.radians()) < kMattersTurn)) return;
+  if (lie_ && lie_->by == Lie::By::sweeps) return;  // it was seen to begin: that was no mount
+  lie_.reset();
+  lies_ = 0;
+  before_.reset();
+  forget_places();
+  word_ = {.broken = sweep.stamp, .remounted = sweep.stamp};
+}
+
 void ScannerWatch::judge_form(const SensorSweep& sweep) {
   form_ = form_of(sweep, std::max(sweep.min_range, near_.blind_within()), limits_, params_.form);
   const FormFault fault = form_.has_wrong_units ? FormFault::units
@@ -252,6 +267,7 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
 }
 
 void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+  if (form_.is_covered) return;  // whoever stands before it gives the same reading everywhere, again and again
   if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
 }
@@ -294,6 +310,12 @@ bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<
 }
 
 void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> others) {
+  const auto is_new = [&](Time remounted) {
+    return remounted != Time{} && view.stamp - remounted < seconds(params_.mount_settles);
+  };
+  if (is_new(word_.remounted) ||
+      std::any_of(others.begin(), others.end(), [&](const Word& other) { return is_new(other.remounted); }))
+    return;
   const auto found = map_.compare(view);
   if (!found) return;
   word_.by_map.reset();
@@ -360,7 +382,7 @@ void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
 SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, bool is_motion_known,
                                 std::span<const Word> others, std::span<const RingEcho> rings) {
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
-  base_from_sensor_ = sweep.base_from_sensor;
+  follow_mount(sweep);
   newest_ = sweep.stamp;
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);

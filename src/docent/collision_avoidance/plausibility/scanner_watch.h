@@ -63,6 +63,7 @@ struct ScannerWatchParams {
   double walls_least_way = 0.3;   ///< [m] at least so far: before, the same beams meet them
   double walls_hole = 0.35;       ///< [rad] between them, where somebody hid one
   double walls_patience = 0.25;   ///< [s] as if they had been seen so long ago: walls do not step aside
+  double mount_settles = 10.0;    ///< [s] after a mount was corrected the belief proves nothing: it came of the old one
   double ahead = 1.75;            ///< [rad] a scanner that looks so far from ahead does not see where it drives
 };
 
@@ -83,6 +84,7 @@ class ScannerWatch {
     std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
     Time fits_map{};                   ///< when it was last as the map has it
     std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
+    Time remounted{};                  ///< when it was found to be mounted elsewhere
   };
   [[nodiscard]] const Word& word() const { return word_; }
 
@@ -115,6 +117,8 @@ class ScannerWatch {
     Time first_sign{};      ///< when it showed first,
     Time last_sign{};       ///< and last
   };
+  /// A mount was found to be another one: what was seen before lies elsewhere, and what did not fit it was no lie.
+  void follow_mount(const SensorSweep& sweep);
   void judge_form(const SensorSweep& sweep);
   void judge_onset(const SweepView& view, std::span<const Word> others);
   /// Something has happened that is no lie: the robot was carried off, or a crowd has closed in.

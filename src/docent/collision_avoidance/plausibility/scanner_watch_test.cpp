@@ -33,7 +33,8 @@ class Watched : public ::testing::Test {
     for (int i = 0; i < static_cast<int>(std::lround(duration / 0.1)); ++i) {
       time += 0.1;
       at = at * Pose2{0.1 * speed, 0.0, Angle::radians(turns)};
-      SensorSweep sweep = room.sweep(time, at);
+      SensorSweep sweep = room.sweep(time, at * really);
+      sweep.base_from_sensor = nominal;
       given.push_back(sweep);
       if (lie) lie(sweep);
       believed = watch.judge(sweep, at);
@@ -53,6 +54,8 @@ class Watched : public ::testing::Test {
   double turns = 0.0;  ///< [rad] a sweep
   std::deque<SensorSweep> given;
   SensorSweep believed;
+  Pose2 nominal;  ///< where the scanner is said to be mounted, and
+  Pose2 really;   ///< where it is
 };
 
 TEST_F(Watched, AScannerInOrderIsBelievedAndProvenByMotion) {
@@ -160,6 +163,23 @@ TEST_F(Watched, NamesOldSweeps) {
   EXPECT_GT(speed(), 0.0);  // very slowly it finds out
   EXPECT_LT(speed(), 0.1);
   EXPECT_NE(reason(), "");
+}
+
+TEST_F(Watched, AMountThatIsCorrectedIsNoLie) {
+  // What stood 0.3 m nearer by the old mount stands where it was.
+  really = {0.3, 0.0, {}};
+  EXPECT_EQ(drive(2.0, {}, 0.0), "");
+  nominal = really;
+  EXPECT_EQ(drive(2.0, {}, 0.0), "");
+  EXPECT_EQ(drive(1.0), "");
+}
+
+TEST_F(Watched, WhoIsCoveredWhileItTurnsRepeatsNothing) {
+  drive(2.0);
+  turns = 0.06;
+  const Lie covered = [](SensorSweep& sweep) { each(sweep, [](float) { return 0.06F; }); };
+  EXPECT_EQ(drive(1.0, covered, 0.0), "something covers the front laser");
+  EXPECT_EQ(drive(1.0, {}, 0.0), "");
 }
 
 TEST_F(Watched, ARobotThatIsCarriedOffDoesNotBlameItsScanner) {

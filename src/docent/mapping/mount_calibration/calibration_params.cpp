@@ -5,6 +5,7 @@ namespace docent::mapping {
 Result<void> ScanFollowerParams::validate() const {
   if (!(step > 0.0 && first_way >= step && way >= first_way)) return fail("0 < step <= first_way <= way must hold");
   if (!(step_turn > 0.0 && turn >= step_turn)) return fail("0 < step_turn <= turn must hold");
+  if (!(least_way > 0.0 && least_turn > 0.0)) return fail("least_way and least_turn must be > 0");
   if (!(longest > 0.0)) return fail("longest must be > 0 s");
   if (!(least_overlap >= 0.0 && least_overlap <= 1.0)) return fail("least_overlap must be in 0..1");
   if (!(most_residual > 0.0)) return fail("most_residual must be > 0 m");
@@ -20,7 +21,8 @@ Result<void> MountFitParams::validate() const {
     if (!(sigma > 0.0)) return fail("every noise, prior and outlier of a fit must be > 0");
   if (!(caution >= 1.0)) return fail("caution must be >= 1");
   if (piece < 1) return fail("piece must be > 0");
-  if (fewest_pieces < 2) return fail("fewest_pieces must be > 1");
+  if (pieces < 4) return fail("pieces must be >= 4");
+  if (few_pairs < 0) return fail("few_pairs must be >= 0");
   if (iterations < 1) return fail("iterations must be > 0");
   return {};
 }

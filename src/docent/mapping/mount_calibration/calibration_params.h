@@ -8,12 +8,14 @@ namespace docent::mapping {
 
 /// When two sweeps of a scanner are laid onto each other.
 struct ScanFollowerParams {
-  double step = 0.08;      ///< [m], > 0: a sweep is looked at after this way
-  double step_turn = 4.0;  ///< [deg], > 0: or this turn, by odometry;
-  double first_way = 0.4;  ///< [m], > 0: and makes a pair with the one that was taken so far back,
-  double way = 0.8;        ///< [m], >= first_way: or so far, once mounts are known: longer ways tell headings better
-  double turn = 25.0;      ///< [deg], > 0: or turned by so much. More: fewer walls are in both
-  double longest = 4.0;    ///< [s], > 0: between both; people have changed places meanwhile
+  double step = 0.08;        ///< [m], > 0: a sweep is looked at after this way
+  double step_turn = 4.0;    ///< [deg], > 0: or this turn, by odometry;
+  double first_way = 0.4;    ///< [m], > 0: and makes a pair with the one that was taken so far back,
+  double way = 0.8;          ///< [m], >= first_way: or so far, once mounts are known: longer ways tell headings better
+  double turn = 25.0;        ///< [deg], > 0: or turned by so much. More: fewer walls are in both
+  double least_way = 0.25;   ///< [m], > 0: or so far, or
+  double least_turn = 12.0;  ///< [deg], > 0: turned by so much, where the next sweep does not fit any more
+  double longest = 4.0;      ///< [s], > 0: between both; people have changed places meanwhile
   double least_overlap = 0.45;    ///< 0..1: share of the points that must lie on surfaces of the other one
   double most_residual = 0.07;    ///< [m], > 0: root mean square of their distances; more: nothing fits
   double most_disagreement = 20;  ///< [deg], > 0: between the turns that odometry and scans see; more: one of them errs
@@ -39,9 +41,10 @@ struct MountFitParams {
   double turn_prior = 0.1;      ///< share, of its scale of turn
   double veer_prior = 0.03;     ///< [rad/m]: how much one wheel outruns the other
   double outlier = 3.0;         ///< sigmas, > 0: beyond it a pair counts less and less (Cauchy)
-  double caution = 1.5;         ///< >= 1: errors are told so many times larger: neighbouring pairs share a sweep
-  int piece = 8;                ///< > 0, pairs: of one piece of the way, in which all may err alike, and
-  int fewest_pieces = 3;        ///< > 1: before their contradictions tell how far
+  double caution = 1.1;         ///< >= 1: errors are told so many times larger: neighbouring pairs share a sweep
+  int piece = 8;                ///< > 0, pairs at most: of one piece of the way, in which all may err alike,
+  int pieces = 6;               ///< >= 4: or, of few pairs, into so many pieces
+  int few_pairs = 24;           ///< >= 0: up to so many one witness more or less may turn all round
   int iterations = 8;           ///< > 0
   [[nodiscard]] Result<void> validate() const;
 };
@@ -51,7 +54,7 @@ struct MountCalibratorParams {
   ScanFollowerParams follower;
   MountFitParams fit;
   int pairs = 150;       ///< > 10: as many of the last ones as count: some 70 m of way
-  int fewest_pairs = 4;  ///< > 0: before that nothing is said
+  int fewest_pairs = 6;  ///< > 0: before that nothing is said
   // From what error on robot.yaml is contradicted. A laser that is screwed on by hand is off by half a degree and 1 cm.
   double named_heading = 1.5;    ///< [deg], > 0
   double named_position = 0.03;  ///< [m], > 0

@@ -19,11 +19,12 @@ constexpr std::size_t kAnd = 5;          // characters
 constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled
 constexpr double kMuchBetter = 0.6;      // of that, with another mount
 constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more
-constexpr double kKnownEnough = 1.5;     // of the limit from which on robot.yaml is contradicted: a standard deviation
-constexpr double kHardlyKnown = 2.0;  // likewise, however large the error seems: people led a mount 124 degrees astray
-constexpr double kBeyondDoubt = 8.0;  // standard deviations
-constexpr double kElsewhere = 4.0;    // standard deviations
-constexpr double kStaysKnown = 1.5;   // of the errors up to which a mount counts as known
+constexpr double kKnownEnough = 1.0;     // of the limit from which on robot.yaml is contradicted: a standard deviation
+constexpr double kHardlyKnown = 2.0;     // likewise, however large the error seems
+constexpr double kMostContradict = 6.0;  // mean squared sigmas: half of the pairs contradict the estimate
+constexpr double kBeyondDoubt = 8.0;     // standard deviations
+constexpr double kElsewhere = 4.0;       // standard deviations
+constexpr double kStaysKnown = 1.5;      // of the errors up to which a mount counts as known
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
   char buffer[160];
@@ -161,7 +162,10 @@ bool MountCalibrator::work() {
     follower.turning.follow(odometry_);
     is_new = is_new || follower.turning.side() != side_before;
     const double way = results_[i].is_known ? params_.follower.way : params_.follower.first_way;
-    const auto pairs = follower.sweeps.follow(odometry_, results_[i].estimate.state.base_from_sensor, way);
+    // A guess by a mount that is not known makes pairs that bear it out.
+    const Pose2& mount =
+        results_[i].is_known ? results_[i].estimate.state.base_from_sensor : results_[i].base_from_sensor;
+    const auto pairs = follower.sweeps.follow(odometry_, mount, way);
     for (const MotionPair& pair : pairs) follower.pairs.push_back(pair);
     while (follower.pairs.size() > static_cast<std::size_t>(params_.pairs)) follower.pairs.pop_front();
     if (pairs.empty()) continue;
@@ -239,12 +243,14 @@ void MountCalibrator::judge(std::size_t scanner) {
   const double x = estimate.state.base_from_sensor.x - nominal.x;
   const double y = estimate.state.base_from_sensor.y - nominal.y;
   const bool has_pairs = result.pairs >= static_cast<std::size_t>(params_.fewest_pairs);
+  const bool has_consent = estimate.misfit <= kMostContradict;
   // What was corrected stays so until it is clearly none any more.
   const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
     const double least = is_so ? kHysteresis * limit : limit;
-    // Of few pairs with people among them the stated error is too small, too: nothing is said of what is hardly known.
+    // Nothing is said of what is hardly known. What is named and used stays so while the next corridor contradicts it.
     const bool is_known_enough =
-        sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit);
+        is_so || (has_consent && (sigma <= kKnownEnough * limit ||
+                                  (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit)));
     return has_pairs && is_known_enough && is_beyond(value, sigma, least, params_.sigmas);
   };
   const bool is_turned = contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree,
@@ -271,8 +277,12 @@ void MountCalibrator::judge(std::size_t scanner) {
                     estimate.sigma_position() <= known * params_.known_position;
   result.is_settled = result.is_known && estimate.sigma(kMountHeading) <= params_.settled_heading * kDegree &&
                       estimate.sigma_position() <= params_.settled_position;
-  result.doubt_heading = std::min(params_.doubt_heading * kDegree, estimate.sigma(kMountHeading));
-  result.doubt_position = std::min(params_.doubt_position, estimate.sigma_position());
+  // What two or three pairs say of their own errors is worth nothing.
+  result.doubt_heading = params_.doubt_heading * kDegree;
+  result.doubt_position = params_.doubt_position;
+  if (!has_pairs) return;
+  result.doubt_heading = std::min(result.doubt_heading, estimate.sigma(kMountHeading));
+  result.doubt_position = std::min(result.doubt_position, estimate.sigma_position());
 }
 
 CalibratedBase MountCalibrator::base() const {

@@ -10,8 +10,10 @@
 namespace docent::mapping {
 namespace {
 
-constexpr double kMostCounted = 9.0;  // squared sigmas of a pair, in the mean
-constexpr int kHeadings = 12;         // from which the search may begin
+constexpr double kMostCounted = 9.0;      // squared sigmas of a pair, in the mean
+constexpr double kUsualMisfit = 3.0;      // of a pair's three measurements
+constexpr int kHeadings = 12;             // from which the search may begin
+constexpr std::size_t kFewestPieces = 4;  // of which a scatter can be told
 
 MountState moved(MountState state, const MountVector& step) {
   state.base_from_sensor.x += step[kMountX];
@@ -85,61 +87,60 @@ double robust_cost(std::span<const WeighedPair> pairs, const MountState& state, 
   return cost;
 }
 
+/// What a pair says of the state near one: its residual there, how that changes, and its weight.
+struct LinearPair {
+  Eigen::Vector3d residual;
+  Eigen::Matrix<double, 3, kMountUnknowns> rows;
+  Eigen::Matrix3d information;
+};
+
+std::vector<LinearPair> linearised(std::span<const WeighedPair> pairs, const MountState& state) {
+  constexpr std::array<double, kMountUnknowns> kSteps{1e-4, 1e-4, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4};
+  std::vector<LinearPair> linear;
+  linear.reserve(pairs.size());
+  for (const WeighedPair& weighed : pairs) {
+    LinearPair& one = linear.emplace_back();
+    one.information = weighed.information;
+    one.residual = residual(*weighed.pair, state);
+    for (int i = 0; i < kMountUnknowns; ++i) {
+      MountVector step = MountVector::Zero();
+      step[i] = kSteps[static_cast<std::size_t>(i)];
+      one.rows.col(i) = (residual(*weighed.pair, moved(state, step)) - one.residual) / step[i];
+    }
+  }
+  return linear;
+}
+
+/// Some of the pairs: all but those of [without, end).
+struct Left {
+  std::size_t without = 0;
+  std::size_t end = 0;
+  [[nodiscard]] bool has(std::size_t i) const { return i < without || i >= end; }
+};
+
 struct NormalEquations {
   MountMatrix information;
   MountVector pull;
 };
 
-/// What one pair says: information, and the pull on the state, with the weight that falls with its residual.
-NormalEquations linearised(const WeighedPair& weighed, const MountState& state, double outlier) {
-  constexpr std::array<double, kMountUnknowns> kSteps{1e-4, 1e-4, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4};
-  const Eigen::Vector3d r = residual(*weighed.pair, state);
-  Eigen::Matrix<double, 3, kMountUnknowns> rows;
-  for (int i = 0; i < kMountUnknowns; ++i) {
-    MountVector step = MountVector::Zero();
-    step[i] = kSteps[static_cast<std::size_t>(i)];
-    rows.col(i) = (residual(*weighed.pair, moved(state, step)) - r) / step[i];
-  }
-  const double weight = 1.0 / (1.0 + r.dot(weighed.information * r) / (outlier * outlier));
-  return {weight * rows.transpose() * weighed.information * rows, weight * rows.transpose() * weighed.information * r};
-}
-
-NormalEquations linearised(std::span<const WeighedPair> pairs, const MountState& state, const MountPrior& prior,
-                           double outlier) {
+/// Information and the pull on the state that is `step` beside the one at which the pairs were made linear, with
+/// weights that fall with the residual there.
+NormalEquations normal_equations(std::span<const LinearPair> pairs, Left left, const MountVector& step,
+                                 const MountVector& off_prior, const MountPrior& prior, double outlier) {
   NormalEquations sums;
   const MountVector weights = prior.sigma.cwiseAbs2().cwiseInverse();
   sums.information = weights.asDiagonal();
-  sums.pull = weights.cwiseProduct(difference(state, prior.state));
-  for (const WeighedPair& weighed : pairs) {
-    const NormalEquations one = linearised(weighed, state, outlier);
-    sums.information += one.information;
-    sums.pull += one.pull;
+  sums.pull = weights.cwiseProduct(off_prior + step);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!left.has(i)) continue;
+    const LinearPair& one = pairs[i];
+    const Eigen::Vector3d r = one.residual + one.rows * step;
+    const double weight = 1.0 / (1.0 + r.dot(one.information * r) / (outlier * outlier));
+    const Eigen::Matrix<double, kMountUnknowns, 3> weighed = weight * one.rows.transpose() * one.information;
+    sums.information += weighed * one.rows;
+    sums.pull += weighed * r;
   }
   return sums;
-}
-
-/// Standard deviations by how far the pieces of the way contradict one another: pairs of one corridor err alike, which
-/// least squares takes for as many witnesses. Each piece is left out in turn, to first order (jackknife over clusters:
-/// K.-Y. Liang and S. Zeger, Biometrika 1986, for clusters; B. Efron, 1982, for the jackknife). 0: too few pieces.
-MountVector scatter(std::span<const WeighedPair> pairs, const MountState& state, const MountMatrix& information,
-                    const MountFitParams& params) {
-  const auto size = static_cast<std::size_t>(params.piece);
-  const std::size_t pieces = pairs.size() / size;  // what is left over belongs to the last one
-  if (pieces < static_cast<std::size_t>(params.fewest_pieces)) return MountVector::Zero();
-  MountVector squares = MountVector::Zero();
-  for (std::size_t k = 0; k < pieces; ++k) {
-    NormalEquations piece{MountMatrix::Zero(), MountVector::Zero()};
-    const std::size_t end = k + 1 == pieces ? pairs.size() : (k + 1) * size;
-    for (std::size_t i = k * size; i < end; ++i) {
-      const NormalEquations one = linearised(pairs[i], state, params.outlier);
-      piece.information += one.information;
-      piece.pull += one.pull;
-    }
-    const MountMatrix rest = information - piece.information;
-    squares += rest.ldlt().solve(piece.pull).cwiseAbs2();
-  }
-  const double few = static_cast<double>(pieces - 1) / static_cast<double>(pieces);
-  return (few * squares).cwiseSqrt();
 }
 
 /// The heading from which the search ends best: with a scanner that looks elsewhere the nearest one may be none.
@@ -158,6 +159,69 @@ MountState first_state(std::span<const WeighedPair> pairs, const MountPrior& pri
     }
   }
   return best;
+}
+
+std::vector<WeighedPair> weighed_pairs(std::span<const MotionPair> pairs, Angle heading, const MountFitParams& params) {
+  std::vector<WeighedPair> weighed;
+  weighed.reserve(pairs.size());
+  for (const MotionPair& pair : pairs) weighed.push_back({&pair, information_of(pair, heading, params)});
+  return weighed;
+}
+
+/// Of least robust cost, from whatever heading.
+MountState best_state(std::span<const MotionPair> pairs, const MountPrior& prior, const MountFitParams& params) {
+  auto weighed = weighed_pairs(pairs, prior.state.base_from_sensor.theta, params);
+  MountState state = first_state(weighed, prior, params.outlier);
+  for (int i = 0; i < params.iterations; ++i) {
+    if (i <= 1)  // how odometry errs lies along the base's way, as far as that is known by now
+      weighed = weighed_pairs(pairs, state.base_from_sensor.theta, params);
+    const NormalEquations sums = normal_equations(linearised(weighed, state), {}, MountVector::Zero(),
+                                                  difference(state, prior.state), prior, params.outlier);
+    const MountVector step = -sums.information.ldlt().solve(sums.pull);
+    state = moved(state, step);
+    if (step.cwiseAbs().maxCoeff() < 1e-6) break;
+  }
+  return state;
+}
+
+/// How far the estimate goes without some of its pairs, near where it is.
+MountVector nearby_step(std::span<const LinearPair> pairs, Left left, const MountVector& off_prior,
+                        const MountPrior& prior, double outlier) {
+  constexpr int kIterations = 4;
+  MountVector step = MountVector::Zero();
+  for (int i = 0; i < kIterations; ++i) {
+    const NormalEquations sums = normal_equations(pairs, left, step, off_prior, prior, outlier);
+    step -= sums.information.ldlt().solve(sums.pull);
+  }
+  return step;
+}
+
+/// Standard deviations by how far the pieces of the way contradict one another: pairs of one corridor err alike, which
+/// least squares takes for as many witnesses. The mount is fitted anew without each piece in turn (jackknife over
+/// clusters: K.-Y. Liang and S. Zeger, Biometrika 1986, for clusters; B. Efron, 1982, for the jackknife), for weights
+/// that fall with the residual tell less than they seem to. Few pieces scatter by chance: as Student's t does.
+/// Of few pairs the fit without one may end elsewhere, so it is searched anew. Zero: too few pieces.
+MountVector scatter(std::span<const MotionPair> pairs, std::span<const LinearPair> linear, const MountState& state,
+                    const MountPrior& prior, const MountFitParams& params) {
+  const std::size_t size = std::clamp(pairs.size() / static_cast<std::size_t>(params.pieces), std::size_t{1},
+                                      static_cast<std::size_t>(params.piece));
+  const std::size_t pieces = pairs.size() / size;  // what is left over belongs to the last one
+  if (pieces < kFewestPieces) return MountVector::Zero();
+  const MountVector off_prior = difference(state, prior.state);
+  MountVector squares = MountVector::Zero();
+  for (std::size_t k = 0; k < pieces; ++k) {
+    const Left left{k * size, k + 1 == pieces ? pairs.size() : (k + 1) * size};
+    if (pairs.size() > static_cast<std::size_t>(params.few_pairs)) {
+      squares += nearby_step(linear, left, off_prior, prior, params.outlier).cwiseAbs2();
+      continue;
+    }
+    std::vector<MotionPair> rest(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(left.without));
+    rest.insert(rest.end(), pairs.begin() + static_cast<std::ptrdiff_t>(left.end), pairs.end());
+    squares += difference(best_state(rest, prior, params), state).cwiseAbs2();
+  }
+  const auto count = static_cast<double>(pieces);
+  const double student = (count - 1.0) / (count - 3.0);
+  return (student * (count - 1.0) / count * squares).cwiseSqrt();
 }
 
 }  // namespace
@@ -183,28 +247,18 @@ double residual_of(const MotionPair& pair, const MountState& state, const MountF
 }
 
 MountEstimate fit_mount(std::span<const MotionPair> pairs, const MountPrior& prior, const MountFitParams& params) {
-  std::vector<WeighedPair> weighed;
-  for (const MotionPair& pair : pairs)
-    weighed.push_back({&pair, information_of(pair, prior.state.base_from_sensor.theta, params)});
-  MountEstimate estimate{.state = first_state(weighed, prior, params.outlier)};
-  for (int i = 0; i < params.iterations; ++i) {
-    if (i <= 1)  // how odometry errs lies along the base's way, as far as that is known by now
-      for (WeighedPair& one : weighed)
-        one.information = information_of(*one.pair, estimate.state.base_from_sensor.theta, params);
-    const NormalEquations sums = linearised(weighed, estimate.state, prior, params.outlier);
-    const MountVector step = -sums.information.ldlt().solve(sums.pull);
-    estimate.state = moved(estimate.state, step);
-    if (step.cwiseAbs().maxCoeff() < 1e-6) break;
-  }
-  const NormalEquations sums = linearised(weighed, estimate.state, prior, params.outlier);
-  for (const WeighedPair& one : weighed) {
-    const Eigen::Vector3d r = residual(*one.pair, estimate.state);
-    estimate.misfit += std::min(kMostCounted, r.dot(one.information * r));
-  }
-  if (!weighed.empty()) estimate.misfit /= static_cast<double>(weighed.size());
-  const double worse = params.caution * std::max(1.0, std::sqrt(estimate.misfit / 3.0));
+  MountEstimate estimate{.state = best_state(pairs, prior, params)};
+  const auto linear = linearised(weighed_pairs(pairs, estimate.state.base_from_sensor.theta, params), estimate.state);
+  const NormalEquations sums =
+      normal_equations(linear, {}, MountVector::Zero(), difference(estimate.state, prior.state), prior, params.outlier);
+  for (const LinearPair& one : linear)
+    estimate.misfit += std::min(kMostCounted, one.residual.dot(one.information * one.residual));
+  if (!linear.empty()) estimate.misfit /= static_cast<double>(linear.size());
+  // Where most pairs contradict the estimate, it may be that of the wrong ones: worse than by the root of their
+  // squares.
+  const double worse = params.caution * std::max(1.0, estimate.misfit / kUsualMisfit);
   estimate.covariance = worse * worse * sums.information.inverse();
-  const MountVector apart = scatter(weighed, estimate.state, sums.information, params);
+  const MountVector apart = scatter(pairs, linear, estimate.state, prior, params);
   for (int i = 0; i < kMountUnknowns; ++i) {
     const double larger = std::max(1.0, apart[i] / estimate.sigma(static_cast<MountUnknown>(i)));
     estimate.covariance.row(i) *= larger;

@@ -52,9 +52,9 @@ TEST(MountFit, StraightWaysSayNothingOfThePlace) {
 }
 
 /// Heading's standard deviation and error [deg], for a way of corridors in each of which all pairs err alike.
-std::pair<double, double> of_corridors(double each_off, Rng& rng) {
+std::pair<double, double> of_corridors(double each_off, std::size_t count, Rng& rng) {
   const Pose2 mount{0.2, 0.0, Angle::degrees(3.0)};
-  auto pairs = pairs_of(mount, 96, rng);
+  auto pairs = pairs_of(mount, count, rng);
   const int length = MountFitParams{}.piece;
   double off = 0.0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -68,17 +68,45 @@ std::pair<double, double> of_corridors(double each_off, Rng& rng) {
           (estimate.state.base_from_sensor.theta - mount.theta).degrees()};
 }
 
-TEST(MountFit, ErrorsAreAsLargeAsPiecesOfTheWayContradictOneAnother) {
-  Rng rng{11};
-  double squares = 0.0;
+/// Mean squared error, in the errors that are told.
+double mean_square(double each_off, std::size_t count, Rng& rng) {
   constexpr int kTrials = 40;
+  double squares = 0.0;
   for (int i = 0; i < kTrials; ++i) {
-    const auto [sigma, error] = of_corridors(1.0, rng);
+    const auto [sigma, error] = of_corridors(each_off, count, rng);
     squares += (error / sigma) * (error / sigma);
   }
-  EXPECT_LT(squares / kTrials, 2.0) << "what is told is too small";
-  EXPECT_GT(squares / kTrials, 0.2) << "what is told is too large";
-  EXPECT_LT(of_corridors(0.0, rng).first, 0.8 * of_corridors(1.0, rng).first);
+  return squares / kTrials;
+}
+
+TEST(MountFit, ErrorsAreAsLargeAsPiecesOfTheWayContradictOneAnother) {
+  Rng rng{11};
+  for (const double each_off : {0.5, 1.0, 2.0}) {
+    for (const std::size_t count : {std::size_t{48}, std::size_t{96}, std::size_t{144}}) {
+      const double square = mean_square(each_off, count, rng);
+      EXPECT_LT(square, 2.0) << "what is told is too small: " << each_off << " degrees, pairs " << count;
+      EXPECT_GT(square, 0.1) << "what is told is too large: " << each_off << " degrees, pairs " << count;
+    }
+  }
+  EXPECT_LT(of_corridors(0.0, 96, rng).first, 0.8 * of_corridors(1.0, 96, rng).first);
+}
+
+TEST(MountFit, AFewWitnessesOfWhomOneErrsAreNotBelieved) {
+  // Two pairs among people agree by chance, and tell of a mount half a metre away; those that come then do not.
+  Rng rng{7};
+  const Pose2 mount{0.2, 0.0, {}};
+  for (std::size_t count = 4; count <= 6; ++count) {
+    auto pairs = pairs_of(mount, count, rng);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Pose2 nonsense{-0.1, 0.4, Angle::degrees(120.0)};
+      const Pose2 base{0.1, 0.0, Angle::radians(0.5)};
+      pairs[i] = {inverse(nonsense) * base * nonsense, 1e5 * Eigen::Matrix3d::Identity(),
+                  ShiftedMotion::constant(base)};
+    }
+    const auto estimate = fit_mount(pairs, vague_prior({}, {}), {});
+    const double off = distance(estimate.state.base_from_sensor.position(), mount.position());
+    EXPECT_LT(off, 3.0 * estimate.sigma_position()) << count << " pairs";
+  }
 }
 
 TEST(MountFit, OfNoPairsIsThePrior) {

@@ -40,14 +40,18 @@ class ScanFollower {
   [[nodiscard]] std::vector<SurfacePoint> points_of(Waiting& sweep) const;
   [[nodiscard]] bool is_worth_it(const Pose2& moved) const;
   void begin(Time stamp, const std::vector<SurfacePoint>& points);
+  /// Of the reference and the last sweep that lay on it, if they are so far apart.
+  [[nodiscard]] std::optional<MotionPair> pair_of_last(const motion_models::OdometryHistory& odometry, double way,
+                                                       double turn) const;
   [[nodiscard]] std::optional<MotionPair> look(const motion_models::OdometryHistory& odometry, const Pose2& mount,
                                                double way);
 
   ScanFollowerParams params_;
   std::deque<Waiting> waiting_;
   std::optional<Reference> reference_;
-  Time last_{};                ///< stamp of the last sweep that was looked at
-  Pose2 reference_from_last_;  ///< by the scans
+  Time last_{};                                            ///< stamp of the last sweep that was looked at
+  Pose2 reference_from_last_;                              ///< by the scans
+  Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();  ///< of that
 };
 
 }  // namespace docent::mapping
