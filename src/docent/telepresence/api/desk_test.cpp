@@ -39,10 +39,7 @@ class TheDesk : public testing::Test {
     EXPECT_TRUE(services.accounts->add("ada", kPassword, Rank::operator_, now_));
     EXPECT_TRUE(services.accounts->add("grace", kPassword, Rank::moderator, now_));
   }
-  ~TheDesk() override {
-    desk_.reset();
-    remove_files();
-  }
+  ~TheDesk() override { desk_.reset(), remove_files(); }
   void remove_files() const {
     for (const char* end : {"", "-wal", "-shm", ".accounts", ".lock"}) std::filesystem::remove(path_ + end);
   }
