@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 
+#include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/store/postgres_fixture.h"
 
 // The same for a file and for a server.
@@ -103,6 +105,63 @@ TEST_P(TheAuditLog, ForgetsWhatIsOlderThanNinetyDays) {
   EXPECT_EQ(found({}), "86400 0 ");
   audit_->forget(time_from_seconds(90 * kDay + 1));
   EXPECT_EQ(found({}), "86400 ");
+}
+
+/// What an operator gets of /api/v1, and what strangers leave there.
+class TheAuditLogOnTheWeb : public testing::Test {
+ protected:
+  TheAuditLogOnTheWeb() { EXPECT_TRUE(services_.accounts->add("ada", "a long way from Bonn", Rank::operator_, kNow)); }
+  ApiAnswer<nlohmann::json> call(const std::string& method, const std::string& target,
+                                 const nlohmann::json& body = nlohmann::json::object()) {
+    ApiRequest request;
+    request.address = "192.0.2.1";
+    std::map<std::string, std::string> path;
+    const auto endpoint = find_endpoint(endpoints(), method, "/api/v1" + target, path);
+    if (!endpoint) return tl::unexpected<ApiRefusal>(endpoint.error());
+    ApiCall one{services_, request, {}, {}, path, *parse_query(target), kNow, {}, {}, {}};
+    return (*endpoint)->handle(one, body);
+  }
+  void log_in(const std::string& name, const std::string& password) {
+    (void)call("POST", "/login", {{"name", name}, {"password", password}});
+  }
+  [[nodiscard]] std::size_t found(const std::string& query) {
+    return call("GET", "/audit?" + query).value().at("lines").size();
+  }
+  const Time kNow = time_from_seconds(1'800'000'000);
+  ApiServices services_ = std::move(*ApiServices::open(":memory:", {}, {}, {1, 8U << 10U}));
+};
+
+TEST_F(TheAuditLogOnTheWeb, IsNotBuriedByWrongPasswords) {
+  log_in("ada", "a long way from Bonn");
+  for (int i = 0; i < 40; ++i) log_in("ada", "wrong password");
+  for (int i = 0; i < 40; ++i) log_in("guess" + std::to_string(i), "wrong password");
+  const auto lines = call("GET", "/audit").value().at("lines");
+  ASSERT_EQ(lines.size(), 3U) << lines.dump();
+  std::map<std::string, std::int64_t> counts;
+  for (const auto& line : lines) counts[line.at("who")] = line.at("count").get<std::int64_t>();
+  EXPECT_EQ(counts["ada"], 40);
+  EXPECT_EQ(counts["no account"], 40);
+  EXPECT_EQ(counts["account:ada"], 1);
+}
+
+TEST_F(TheAuditLogOnTheWeb, IsReadInPagesAndSearched) {
+  for (int i = 0; i < 250; ++i)
+    ASSERT_TRUE(services_.audit->add({kNow, "account:ada", "login", std::to_string(i), "192.0.2.7"}));
+  std::set<std::string> seen;
+  std::string query;
+  for (int page = 0; page < 3; ++page) {
+    const auto answer = call("GET", "/audit?" + query).value();
+    for (const auto& line : answer.at("lines")) seen.insert(line.at("about"));
+    EXPECT_EQ(answer.at("next").get<std::string>().empty(), page == 2);
+    query = "before=" + answer.at("next").get<std::string>();
+  }
+  EXPECT_EQ(seen.size(), 250U);
+  EXPECT_EQ(found("account=ada&address=192.0.2.7"), 100U);
+  EXPECT_EQ(found("account=grace"), 0U);
+  EXPECT_EQ(found("address=192.0.2.1"), 0U);
+  EXPECT_EQ(found("from=1&until=2"), 0U);
+  EXPECT_EQ(call("GET", "/audit?from=yesterday").error().reason, ApiFault::not_understood);
+  EXPECT_EQ(call("GET", "/audit?before=nonsense").error().reason, ApiFault::not_understood);
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, TheAuditLog, testing::Bool(),

@@ -145,6 +145,16 @@ std::optional<std::size_t> TreePage::free_bytes() const {
   return free;
 }
 
+/// Where cells may begin: as the page says, if that fits its list; before it lie remains of what was moved, or deleted.
+std::size_t TreePage::first_cell() const {
+  const std::size_t said = big_endian<2>(image_, begin_ + 5);
+  const auto places = listed(kLeafHeader);
+  const std::size_t count = big_endian<2>(image_, begin_ + 3);
+  const bool fits = said >= begin_ + kLeafHeader + 2 * count && said <= images_.usable && places.size() == count &&
+                    std::all_of(places.begin(), places.end(), [&](std::size_t place) { return place >= said; });
+  return fits ? said : begin_ + kLeafHeader;
+}
+
 std::vector<Cell> TreePage::rows(const IsRow& is_row) const {
   std::vector<Cell> rows;
   if (image_.size() < images_.usable || images_.usable < begin_ + kLeafHeader) return rows;
@@ -163,7 +173,7 @@ std::vector<Cell> TreePage::rows(const IsRow& is_row) const {
     for (const std::size_t place : listed(kLeafHeader)) is_whole = !is_taken[place] && take(place) && is_whole;
   const auto taken = static_cast<std::size_t>(std::count(is_taken.begin(), is_taken.end(), true));
   if (is_whole && free_bytes() == images_.usable - big_endian<2>(image_, begin_ + 5) - taken) return rows;
-  for (std::size_t at = begin_ + kLeafHeader; at + 3 < images_.usable; ++at)
+  for (std::size_t at = first_cell(); at + 3 < images_.usable; ++at)
     if (!is_taken[at] && image_[at] != 0) take(at);
   return rows;
 }

@@ -34,6 +34,7 @@ class TreePage {
 
  private:
   [[nodiscard]] std::vector<std::size_t> listed(std::size_t header) const;
+  [[nodiscard]] std::size_t first_cell() const;
   [[nodiscard]] std::optional<std::size_t> free_bytes() const;
   [[nodiscard]] std::optional<Cell> cell_at(std::size_t at, bool has_id, std::size_t& end) const;
 
