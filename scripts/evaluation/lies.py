@@ -39,7 +39,7 @@ MUSEUMS = ["bonn", "smithsonian"]
 CROWDS = ["busy", "packed"]
 LOOP_S = 3.0  # [s] that a loop takes: from the start, it must have been said once
 SLICE_KINDS = ["units", "silent", "sector", "offset", "scaled", "stale"]
-SLICE_STARTS = ["units", "silent", "sector", "offset", "scaled", "stale"]  # of these also from the start
+SLICE_STARTS = ["units", "silent", "sector", "offset", "scaled"]  # of these also from the start
 PARTS = [*SAYS, "alarms"]
 CRIPPLED_KINDS = ["units", "silent"]
 

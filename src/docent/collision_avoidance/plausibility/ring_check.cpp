@@ -198,7 +198,7 @@ RingCheck::Finding RingCheck::add(const SweepView& view, std::span<const RingEch
   finding.too_long = law();
   const std::optional<double> share = agreement();
   finding.in_order = share && *share >= params_.agrees;
-  if (!finding.too_long) finding.late = lateness(view, echoes);
+  if (params_.tells_old && !finding.too_long) finding.late = lateness(view, echoes);
   return finding;
 }
 

@@ -52,6 +52,7 @@ struct RingCheckParams {
   double least_factor = 1.3;
   double agrees = 0.7;          ///< of the sensors, and
   int least_agree = 6;          ///< so many agree: the laser is in order
+  bool tells_old = false;       ///< old sweeps: in a busy hall it blamed a laser in order for 48 and 45 s of 15 minutes
   double disagrees = 0.5;       ///< of the sensors at most agree with sweeps that are old,
   double agrees_late = 0.75;    ///< and so many if the sweeps are as old as is tried
   int least_late = 8;           ///< of so many

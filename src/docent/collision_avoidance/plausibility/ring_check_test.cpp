@@ -81,7 +81,9 @@ std::optional<double> turned(std::size_t late, double mounted, double slip) {
   room.box(-2, -1.5, 3, 2.5);
   room.discs = {{{1.5, 0.8}, 0.25}, {{1.2, -1.2}, 0.25}, {{-1.3, 0.2}, 0.3}};
   RingForTest ring;
-  RingCheck check;
+  RingCheckParams params;
+  params.tells_old = true;
+  RingCheck check{params};
   std::vector<SensorSweep> given;
   Pose2 at;
   Pose2 said;

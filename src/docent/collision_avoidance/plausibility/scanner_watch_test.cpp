@@ -238,6 +238,9 @@ TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
 }
 
 TEST_F(WatchedWithRing, OldSweepsAreToldFromWheelsThatSlip) {
+  ScannerWatchParams params;
+  params.rings.tells_old = true;
+  watch = ScannerWatch{"front laser", limits, nullptr, params};
   EXPECT_EQ(turn(1.5, 0.0), "");
   EXPECT_EQ(turn(1.0, 0.0, {}, 0, 0.035), "");  // 20 degrees
   EXPECT_EQ(turn(3.0, 0.0), "");
