@@ -153,52 +153,12 @@ void RingCheck::collect(const SweepView& view, const Pose2& odom_from_sensor, st
   }
 }
 
-Pose2 RingCheck::odom_from_sensor_at(Time time) const {
-  const auto after = std::find_if(trail_.begin(), trail_.end(), [&](const Step& step) { return step.stamp >= time; });
-  if (after == trail_.begin() || after == trail_.end()) return trail_.front().odom_from_sensor;
-  const auto before = std::prev(after);
-  return after->stamp - time < time - before->stamp ? after->odom_from_sensor : before->odom_from_sensor;
-}
-
-bool RingCheck::stands(const SweepView& view) const {
-  if (view.stamp - trail_.front().stamp < seconds(params_.rest)) return false;
-  return std::all_of(trail_.begin(), trail_.end(), [&](const Step& step) {
-    if (view.stamp - step.stamp > seconds(params_.rest)) return true;
-    const Pose2 moved = inverse(step.odom_from_sensor) * view.odom_from_sensor;
-    return norm(moved.position()) <= params_.rest_way && std::abs(moved.theta.radians()) <= params_.rest_turn;
-  });
-}
-
-std::optional<double> RingCheck::lateness(const SweepView& view, std::span<const RingEcho> echoes) {
-  const Agreement now = agreement_of(votes_);
-  // A laser that is mounted otherwise disagrees at rest as well.
-  if (now.compared >= params_.least_late && now.is_at_least(params_.agrees_at_rest) && stands(view))
-    has_agreed_at_rest_ = true;
-  if (!has_agreed_at_rest_ || now.is_at_least(params_.agrees)) return std::nullopt;
-  std::optional<double> best;
-  double most = params_.agrees_late;
-  for (std::size_t k = 0; k < kLags.size(); ++k) {
-    if (view.stamp - trail_.front().stamp < seconds(kLags[k])) break;
-    collect(view, odom_from_sensor_at(view.stamp - seconds(kLags[k])), echoes, late_votes_[k]);
-    const Agreement late = agreement_of(late_votes_[k]);
-    if (late.compared < params_.least_late || !late.is_at_least(most)) continue;
-    most = static_cast<double>(late.agree) / late.compared;
-    best = kLags[k];
-  }
-  if (now.compared < params_.least_late || now.is_at_least(params_.disagrees)) return std::nullopt;
-  return best;
-}
-
 RingCheck::Finding RingCheck::add(const SweepView& view, std::span<const RingEcho> echoes) {
-  if (!trail_.empty() && view.stamp <= trail_.back().stamp) trail_.clear();  // the clock was set back
-  trail_.push_back({view.stamp, view.odom_from_sensor});
-  while (view.stamp - trail_.front().stamp > seconds(kLags.back() + params_.memory)) trail_.pop_front();
   collect(view, view.odom_from_sensor, echoes, votes_);
   Finding finding;
   finding.too_long = law();
   const std::optional<double> share = agreement();
   finding.in_order = share && *share >= params_.agrees;
-  if (params_.tells_old && !finding.too_long) finding.late = lateness(view, echoes);
   return finding;
 }
 

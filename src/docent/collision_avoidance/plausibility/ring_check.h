@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -47,20 +45,12 @@ struct RingCheckParams {
   int least = 6;               ///< sensors that follow a law,
   double least_span = 1.2;     ///< [rad] and look in such different directions: no bench is so wide
   double share = 0.65;         ///< of all sensors that met what the laser meets
-  double most_agree = 0.25;    ///< and at most so many agree with the laser
+  double most_agree = 0.3;     ///< and at most so many agree with the laser
   double least_offset = 0.25;  ///< [m] less is clothes, and where the ring is said to be
   double least_factor = 1.3;
-  double agrees = 0.7;          ///< of the sensors, and
-  int least_agree = 6;          ///< so many agree: the laser is in order
-  bool tells_old = false;       ///< old sweeps: in a busy hall it blamed a laser in order for 48 and 45 s of 15 minutes
-  double disagrees = 0.5;       ///< of the sensors at most agree with sweeps that are old,
-  double agrees_late = 0.75;    ///< and so many if the sweeps are as old as is tried
-  int least_late = 8;           ///< of so many
-  double rest_way = 0.02;       ///< [m] and
-  double rest_turn = 0.03;      ///< [rad] less within
-  double rest = 0.9;            ///< [s]: it stands, and old sweeps are right
-  double agrees_at_rest = 0.8;  ///< of the sensors: the laser is mounted as it is said
-  double differs = 2.0;         ///< tolerances between what a law and the truth would read: else nothing contradicts it
+  double agrees = 0.7;   ///< of the sensors, and
+  int least_agree = 6;   ///< so many agree: the laser is in order
+  double differs = 2.0;  ///< tolerances between what a law and the truth would read: else nothing contradicts it
 };
 
 /// Whether sonars and infrared sensors meet things where a laser says that they are. They see more than it: glass and
@@ -73,7 +63,6 @@ class RingCheck {
   struct Finding {
     bool in_order = false;
     std::optional<RangeLaw> too_long{};  ///< by this law
-    std::optional<double> late{};        ///< [s] the sweeps fit the ring only if they are so old
   };
   /// One sweep. O(echoes * samples of a cone).
   [[nodiscard]] Finding add(const SweepView& view, std::span<const RingEcho> echoes);
@@ -106,24 +95,12 @@ class RingCheck {
                Votes& votes) const;
   [[nodiscard]] std::optional<Vote> vote_of(const RingEcho& echo, const SweepView& view,
                                             const Pose2& odom_from_sensor) const;
-  /// Whether the sweeps are old. The ring hears the same walls as a laser whose wheels slip.
-  [[nodiscard]] std::optional<double> lateness(const SweepView& view, std::span<const RingEcho> echoes);
-  [[nodiscard]] bool stands(const SweepView& view) const;
-  [[nodiscard]] Pose2 odom_from_sensor_at(Time time) const;
   [[nodiscard]] std::optional<RangeLaw> law() const;
   [[nodiscard]] double span_of(const RangeLaw& law) const;
   [[nodiscard]] bool follows(const Vote& vote, const RangeLaw& law) const;
 
   RingCheckParams params_;
-  static constexpr std::array<double, 6> kLags{0.5, 0.75, 1.0, 1.5, 2.0, 3.0};  // [s]
   Votes votes_;
-  std::array<Votes, kLags.size()> late_votes_;  ///< if the sweeps were so old
-  struct Step {
-    Time stamp;
-    Pose2 odom_from_sensor;
-  };
-  std::deque<Step> trail_;  ///< of the last seconds
-  bool has_agreed_at_rest_ = false;
 };
 
 }  // namespace docent::collision_avoidance

@@ -75,40 +75,6 @@ TEST_F(RingCheckTest, ALaserThatAgreesWithTheRingFollowsNoLaw) {
   EXPECT_FALSE(check.contradicts(law, time_from_seconds(1.0)));
 }
 
-/// Stands for two seconds and turns for three. @returns how old the sweeps seem to be
-std::optional<double> turned(std::size_t late, double mounted, double slip) {
-  RoomForTest room;
-  room.box(-2, -1.5, 3, 2.5);
-  room.discs = {{{1.5, 0.8}, 0.25}, {{1.2, -1.2}, 0.25}, {{-1.3, 0.2}, 0.3}};
-  RingForTest ring;
-  RingCheckParams params;
-  params.tells_old = true;
-  RingCheck check{params};
-  std::vector<SensorSweep> given;
-  Pose2 at;
-  Pose2 said;
-  std::optional<double> found;
-  for (int i = 0; i < 50; ++i) {
-    const double time = 1.0 + 0.1 * i;
-    const double turn = i < 20 ? 0.0 : 0.1;
-    at.theta = at.theta + Angle::radians(turn);
-    said.theta = said.theta + Angle::radians(turn + (i >= 20 && i < 30 ? slip : 0.0));
-    ring.hear(time, room, at, said);
-    given.push_back(room.sweep(time, at * Pose2{0.0, 0.0, Angle::radians(mounted)}));
-    SensorSweep sweep = given[given.size() > late ? given.size() - 1 - late : 0];
-    sweep.stamp = time_from_seconds(time);
-    if (const auto finding = check.add(view_of(sweep, said), ring.echoes.all()); finding.late) found = finding.late;
-  }
-  return found;
-}
-
-TEST(RingCheckOfOldSweeps, TellsThemFromWheelsThatSlipAndAnotherMount) {
-  EXPECT_NEAR(turned(10, 0.0, 0.0).value_or(0.0), 1.0, 0.5);
-  EXPECT_FALSE(turned(0, 0.0, 0.0));
-  EXPECT_FALSE(turned(0, 0.0, 0.04));
-  EXPECT_FALSE(turned(0, 0.7, 0.0));
-}
-
 TEST_F(RingCheckTest, WhatGivesNoEchoTakesTheLastOneAway) {
   (void)look(1.0, 0.0, room);
   ring.hear(2.0, RoomForTest{}, {}, {});

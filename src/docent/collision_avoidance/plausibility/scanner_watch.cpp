@@ -353,10 +353,7 @@ void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Findin
              .law = *found.too_long},
             view.stamp);
   }
-  late_row_ = found.late ? late_row_ + 1 : 0;
-  if (late_row_ >= params_.rings_sure_late) {
-    convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::rings, .is_late = true}, view.stamp);
-  } else if (lie_ && !lie_->is_late && rings_row_ == 0) {
+  if (lie_ && !lie_->is_late && rings_row_ == 0) {
     const bool is_in_order =
         lie_->by == Lie::By::rings ? found.in_order : rings_.contradicts(lie_->law, lie_->first_sign);
     if (is_in_order) acquit();

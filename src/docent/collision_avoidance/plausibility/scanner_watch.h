@@ -49,7 +49,6 @@ struct ScannerWatchParams {
   double clearly = 2.0;           ///< times as many as of the other
   int sure = 2;                   ///< sweeps that say the same
   int rings_sure = 3;             ///< likewise, against sonars and infrared sensors
-  int rings_sure_late = 4;        ///< likewise, of old sweeps
   int good_again = 3;             ///< sweeps without a fault of form until it is forgotten
   double gone = 0.15;             ///< of the samples at most should still meet something: a silence is no wonder
   double people_stay = 3.0;       ///< [s] then those who were all that was seen may have left; walls have not
@@ -164,7 +163,6 @@ class ScannerWatch {
   NearThings near_;
   RingCheck rings_;
   int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
-  int late_row_ = 0;   ///< or old
   Pose2 base_from_sensor_;
   SweepForm form_;
   enum class FormFault { none, units, covered, silent };

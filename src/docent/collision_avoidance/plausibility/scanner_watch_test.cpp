@@ -205,24 +205,18 @@ TEST_F(Watched, ARobotThatIsCarriedOffDoesNotBlameItsScanner) {
 class WatchedWithRing : public Watched {
  protected:
   WatchedWithRing() { room.discs.push_back({{-1.5, 1.5}, 0.3}); }
-  /// @param late  sweeps @param slip  [rad] that the wheels turn a sweep, the robot does not
-  std::string turn(double duration, double turn_rate, const Lie& lie = {}, std::size_t late = 0, double slip = 0.0) {
+  std::string turn(double duration, double turn_rate, const Lie& lie = {}) {
     for (int i = 0; i < static_cast<int>(std::lround(duration / 0.1)); ++i) {
       time += 0.1;
       at.theta = at.theta + Angle::radians(0.1 * turn_rate);
-      said.theta = said.theta + Angle::radians(0.1 * turn_rate + slip);
-      given.push_back(room.sweep(time, at));
-      SensorSweep sweep = given[given.size() > late ? given.size() - 1 - late : 0];
-      sweep.stamp = given.back().stamp;
-      if (late > 0) each(sweep, [&](float range) { return range + static_cast<float>(room.rng.normal(0.0, 1e-4)); });
+      SensorSweep sweep = room.sweep(time, at);
       if (lie) lie(sweep);
-      ring.hear(time, room, at, said);
-      believed = watch.judge(sweep, said, true, {}, ring.echoes.all());
+      ring.hear(time, room, at, at);
+      believed = watch.judge(sweep, at, true, {}, ring.echoes.all());
     }
     return reason();
   }
   RingForTest ring;
-  Pose2 said;
 };
 
 TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
@@ -235,18 +229,6 @@ TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
   EXPECT_EQ(turn(0.6, 0.0, lie), "the distances of the front laser are 0.5 m too long for sonar and infrared");
   EXPECT_EQ(speed(), 0.0);
   EXPECT_EQ(turn(1.5, 0.0), "");  // and is believed again
-}
-
-TEST_F(WatchedWithRing, OldSweepsAreToldFromWheelsThatSlip) {
-  ScannerWatchParams params;
-  params.rings.tells_old = true;
-  watch = ScannerWatch{"front laser", limits, nullptr, params};
-  EXPECT_EQ(turn(1.5, 0.0), "");
-  EXPECT_EQ(turn(1.0, 0.0, {}, 0, 0.035), "");  // 20 degrees
-  EXPECT_EQ(turn(3.0, 0.0), "");
-  EXPECT_EQ(turn(3.0, 1.0), "");
-  EXPECT_EQ(turn(2.0, 0.0, {}, 10), "");
-  EXPECT_EQ(turn(2.5, 1.0, {}, 10), "the front laser gives old sweeps");
 }
 
 /// Two scanners, one ahead and one behind.
