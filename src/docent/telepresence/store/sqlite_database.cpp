@@ -4,10 +4,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -76,6 +77,14 @@ std::vector<Value> values_of(SQLite::Statement& query) {
   return values;
 }
 
+/// Where SQLite says no more than that it cannot write: the disk has no room, or files of this process none.
+bool may_not_grow(const fs::path& file) {
+  struct statvfs disk {};
+  rlimit most{};
+  return (::statvfs(file.c_str(), &disk) == 0 && disk.f_bavail == 0) ||
+         (::getrlimit(RLIMIT_FSIZE, &most) == 0 && most.rlim_cur != RLIM_INFINITY);
+}
+
 class SqliteDatabase final : public Database {
  public:
   explicit SqliteDatabase(const std::string& path) : files_{path}, is_in_memory_{path == ":memory:"} {}
@@ -119,8 +128,9 @@ class SqliteDatabase final : public Database {
     return seconds_now() - said_at_ < kNoticeLasts ? said_ : "";
   }
   [[nodiscard]] Result<void> look() override {
-    if (!is_in_memory_ && connection_ && fault_.empty() && !begins_well(connection_->getHandle()))
-      fault_ = "the file does not begin as a database";
+    if (is_in_memory_ || !connection_) return make_ready();
+    if (fault_.empty()) fault_ = open_files_->look(files_);
+    if (fault_.empty() && !begins_well(connection_->getHandle())) fault_ = "the file does not begin as a database";
     return make_ready();
   }
   [[nodiscard]] Result<void> copy_to(const fs::path& file) override {
@@ -372,10 +382,10 @@ class SqliteDatabase final : public Database {
   [[nodiscard]] tl::unexpected<Error> failed(const SQLite::Exception& why) {
     const int code = why.getErrorCode() & 0xFF;
     is_gone_ = code == SQLITE_BUSY;
-    const int system = connection_ ? sqlite3_system_errno(connection_->getHandle()) : 0;
-    const bool is_short = (why.getExtendedErrorCode() == SQLITE_IOERR_SHORT_READ);
+    const bool is_short = why.getExtendedErrorCode() == SQLITE_IOERR_SHORT_READ;
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB || is_short) fault_ = "damaged";
-    const bool is_full = code == SQLITE_FULL || (code == SQLITE_IOERR && (system == ENOSPC || system == EFBIG));
+    const bool is_full =
+        code == SQLITE_FULL || (why.getExtendedErrorCode() == SQLITE_IOERR_WRITE && may_not_grow(files_.file()));
     return fail(files_.file().string() + ": " + (is_full ? kDiskFull : why.what()));
   }
 
