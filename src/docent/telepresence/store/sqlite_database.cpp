@@ -164,9 +164,7 @@ class SqliteDatabase final : public Database {
     files_.finish_mending();
     StoreLock::Note note = lock_->note();
     std::string why = files_.fault(note.is_open);
-    if (why == SqliteFiles::kWalGone) {
-      say(why);  // the file may be sound
-    } else if (!why.empty()) {
+    if (!why.empty()) {
       if (auto mended = mend(files_.read(), why); !mended) return mended;
     }
     auto opened = connect();
@@ -185,7 +183,7 @@ class SqliteDatabase final : public Database {
     return {};
   }
 
-  static constexpr const char* kAccountsMended = "an account was damaged and is as its copy has it";
+  static constexpr const char* kAccountsMended = "an account was not as its copy has it, and is so now";
 
   /// What an open database has wrong, all of it read.
   std::string damage() {
@@ -325,8 +323,10 @@ class SqliteDatabase final : public Database {
   void say(const std::string& what, const StoreLock* lock = nullptr) {
     if (lock == nullptr) lock = &*lock_;
     StoreLock::Note note = lock->note();
+    const std::int64_t before = note.said_at;
     note.said_at = seconds_now();
-    note.said = date_and_time(note.said_at) + ", " + what;
+    const bool is_of_today = !note.said.empty() && note.said_at - before < kNoticeLasts;
+    note.said = (is_of_today ? note.said + "; " : "") + date_and_time(note.said_at) + ", " + what;
     (void)lock->write(note);
     const std::scoped_lock guard{notice_mutex_};
     said_at_ = note.said_at;
