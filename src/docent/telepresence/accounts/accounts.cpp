@@ -9,7 +9,9 @@ namespace {
 
 constexpr Migration kTables[] = {
     {"accounts",
-     "CREATE TABLE accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, created BIGINT NOT NULL);"
+     // A store that has lost all else has them from their copy.
+     "CREATE TABLE IF NOT EXISTS accounts (name TEXT PRIMARY KEY, hash TEXT NOT NULL, rank TEXT NOT NULL, created "
+     "BIGINT NOT NULL);"
      "CREATE TABLE sessions (token TEXT PRIMARY KEY, csrf TEXT NOT NULL, person TEXT NOT NULL, name TEXT NOT NULL,"
      " rank TEXT NOT NULL, address TEXT NOT NULL, expires BIGINT NOT NULL);"
      "CREATE INDEX sessions_of_person ON sessions (person);"

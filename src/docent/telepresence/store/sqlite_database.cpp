@@ -4,10 +4,11 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -76,6 +77,14 @@ std::vector<Value> values_of(SQLite::Statement& query) {
   return values;
 }
 
+/// Where SQLite says no more than that it cannot write: the disk has no room, or files of this process none.
+bool may_not_grow(const fs::path& file) {
+  struct statvfs disk {};
+  rlimit most{};
+  return (::statvfs(file.c_str(), &disk) == 0 && disk.f_bavail == 0) ||
+         (::getrlimit(RLIMIT_FSIZE, &most) == 0 && most.rlim_cur != RLIM_INFINITY);
+}
+
 class SqliteDatabase final : public Database {
  public:
   explicit SqliteDatabase(const std::string& path) : files_{path}, is_in_memory_{path == ":memory:"} {}
@@ -119,8 +128,9 @@ class SqliteDatabase final : public Database {
     return seconds_now() - said_at_ < kNoticeLasts ? said_ : "";
   }
   [[nodiscard]] Result<void> look() override {
-    if (!is_in_memory_ && connection_ && fault_.empty() && !begins_well(connection_->getHandle()))
-      fault_ = "the file does not begin as a database";
+    if (is_in_memory_ || !connection_) return make_ready();
+    if (fault_.empty()) fault_ = open_files_->look(files_);
+    if (fault_.empty() && !begins_well(connection_->getHandle())) fault_ = "the file does not begin as a database";
     return make_ready();
   }
   [[nodiscard]] Result<void> copy_to(const fs::path& file) override {
@@ -154,9 +164,7 @@ class SqliteDatabase final : public Database {
     files_.finish_mending();
     StoreLock::Note note = lock_->note();
     std::string why = files_.fault(note.is_open);
-    if (why == SqliteFiles::kWalGone) {
-      say(why);  // the file may be sound
-    } else if (!why.empty()) {
+    if (!why.empty()) {
       if (auto mended = mend(files_.read(), why); !mended) return mended;
     }
     auto opened = connect();
@@ -175,7 +183,7 @@ class SqliteDatabase final : public Database {
     return {};
   }
 
-  static constexpr const char* kAccountsMended = "an account was damaged and is as its copy has it";
+  static constexpr const char* kAccountsMended = "an account was not as its copy has it, and is so now";
 
   /// What an open database has wrong, all of it read.
   std::string damage() {
@@ -315,8 +323,10 @@ class SqliteDatabase final : public Database {
   void say(const std::string& what, const StoreLock* lock = nullptr) {
     if (lock == nullptr) lock = &*lock_;
     StoreLock::Note note = lock->note();
+    const std::int64_t before = note.said_at;
     note.said_at = seconds_now();
-    note.said = date_and_time(note.said_at) + ", " + what;
+    const bool is_of_today = !note.said.empty() && note.said_at - before < kNoticeLasts;
+    note.said = (is_of_today ? note.said + "; " : "") + date_and_time(note.said_at) + ", " + what;
     (void)lock->write(note);
     const std::scoped_lock guard{notice_mutex_};
     said_at_ = note.said_at;
@@ -372,10 +382,10 @@ class SqliteDatabase final : public Database {
   [[nodiscard]] tl::unexpected<Error> failed(const SQLite::Exception& why) {
     const int code = why.getErrorCode() & 0xFF;
     is_gone_ = code == SQLITE_BUSY;
-    const int system = connection_ ? sqlite3_system_errno(connection_->getHandle()) : 0;
-    const bool is_short = (why.getExtendedErrorCode() == SQLITE_IOERR_SHORT_READ);
+    const bool is_short = why.getExtendedErrorCode() == SQLITE_IOERR_SHORT_READ;
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB || is_short) fault_ = "damaged";
-    const bool is_full = code == SQLITE_FULL || (code == SQLITE_IOERR && (system == ENOSPC || system == EFBIG));
+    const bool is_full =
+        code == SQLITE_FULL || (why.getExtendedErrorCode() == SQLITE_IOERR_WRITE && may_not_grow(files_.file()));
     return fail(files_.file().string() + ": " + (is_full ? kDiskFull : why.what()));
   }
 

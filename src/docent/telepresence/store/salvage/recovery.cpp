@@ -104,25 +104,31 @@ class Recovery {
 
   Result<void> fill(const std::string& name, const SalvagedTable& table) {
     const auto& columns = shapes_.at(name).columns;
-    std::map<std::size_t, std::unique_ptr<Statement>> by_length;  // rows of older versions are shorter
-    // The newest first: of two with the same key it stays.
-    for (auto row = table.rows.rbegin(); row != table.rows.rend(); ++row) {
-      const auto& values = row->second.values;
-      auto& insert = by_length[values.size()];
+    std::map<std::pair<std::size_t, bool>, std::unique_ptr<Statement>>
+        statements;  // rows of older versions are shorter
+    const auto put = [&](const SalvagedRow& row, bool has_id) {
+      auto& insert = statements[{row.values.size(), has_id}];
       if (!insert) {
-        std::string names = "rowid", marks = "?";
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          names += ", " + quoted(columns[i].name);
-          marks += ", ?";
+        std::string names = has_id ? "rowid" : "", marks = has_id ? "?" : "";
+        for (std::size_t i = 0; i < row.values.size(); ++i) {
+          names += (names.empty() ? "" : ", ") + quoted(columns[i].name);
+          marks += marks.empty() ? "?" : ", ?";
         }
         insert = std::make_unique<Statement>(
             to_, "INSERT OR IGNORE INTO " + quoted(name) + " (" + names + ") VALUES (" + marks + ")");
       }
-      std::vector<Value> arguments{row->first};
-      arguments.insert(arguments.end(), values.begin(), values.end());
-      if (!insert->is_good() || !insert->run(arguments)) return failed();
-      done_.rows += static_cast<std::size_t>(sqlite3_changes(to_));
-    }
+      std::vector<Value> arguments;
+      if (has_id) arguments.emplace_back(row.id);
+      arguments.insert(arguments.end(), row.values.begin(), row.values.end());
+      const bool is_put = insert->is_good() && insert->run(arguments);
+      if (is_put) done_.rows += static_cast<std::size_t>(sqlite3_changes(to_));
+      return is_put;
+    };
+    // The newest first: of two with the same key it stays.
+    for (auto row = table.rows.rbegin(); row != table.rows.rend(); ++row)
+      if (!put(row->second, true)) return failed();
+    for (const SalvagedRow& row : table.others)
+      if (!put(row, false)) return failed();
     return {};
   }
 

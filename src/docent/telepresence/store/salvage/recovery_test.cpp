@@ -147,7 +147,7 @@ TEST_F(ADamagedStore, TakesItsTablesFromABackupWhereTheFirstPageIsGone) {
 }
 
 TEST_F(ADamagedStore, HasItsAccountsFromTheirCopy) {
-  TableCopy::of(database_)->write(folder_ / "accounts").value();
+  ASSERT_TRUE(TableCopy::of(database_)->write(folder_ / "accounts"));
   left_.copy = folder_ / "accounts";
   left_.file.clear();
   left_.wal.clear();

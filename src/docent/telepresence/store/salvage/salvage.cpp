@@ -171,11 +171,10 @@ class Salvager {
   static void keep(SalvagedTable& table, Cell cell, bool is_newer) {
     const std::int64_t id = cell.id;
     SalvagedRow row{id, std::move(cell.values)};
-    if (is_newer) {
-      table.rows.insert_or_assign(id, std::move(row));
-    } else {
-      table.rows.emplace(id, std::move(row));
-    }
+    const auto [place, is_first] = table.rows.try_emplace(id, row);
+    if (is_first || place->second.values == row.values) return;
+    if (is_newer) std::swap(place->second, row);
+    table.others.push_back(std::move(row));
   }
 
   const PageImages& images_;

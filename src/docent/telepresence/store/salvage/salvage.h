@@ -36,6 +36,8 @@ struct SalvagedRow {
 /// What is left of a table.
 struct SalvagedTable {
   std::map<std::int64_t, SalvagedRow> rows;
+  /// Others that say the same id: one of the two is spoiled, or is what the row was before.
+  std::vector<SalvagedRow> others;
   std::size_t lost_pages = 0;  ///< that its tree names, and that hold nothing of it
 };
 
