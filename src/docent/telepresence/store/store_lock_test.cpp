@@ -8,7 +8,7 @@ namespace docent::telepresence {
 namespace {
 
 using Part = StoreLock::Part;
-using Kind = StoreLock::Kind;
+using LockKind = StoreLock::Kind;
 
 class TheLockOfAStore : public testing::Test {
  protected:
@@ -24,17 +24,17 @@ TEST_F(TheLockOfAStore, HoldsBetweenConnectionsOfOneProcess) {
   const auto one = StoreLock::open(folder_ / "db").value();
   {
     const auto other = StoreLock::open(folder_ / "db").value();
-    EXPECT_TRUE(one.try_for(Part::use, Kind::shared));
-    EXPECT_TRUE(other.try_for(Part::use, Kind::shared));
-    EXPECT_FALSE(one.try_for(Part::use, Kind::alone));
-    EXPECT_TRUE(one.try_for(Part::commit, Kind::alone)) << "another part";
+    EXPECT_TRUE(one.try_for(Part::use, LockKind::shared));
+    EXPECT_TRUE(other.try_for(Part::use, LockKind::shared));
+    EXPECT_FALSE(one.try_for(Part::use, LockKind::alone));
+    EXPECT_TRUE(one.try_for(Part::commit, LockKind::alone)) << "another part";
     other.release(Part::use);
-    EXPECT_TRUE(one.try_for(Part::use, Kind::alone));
-    EXPECT_FALSE(other.try_for(Part::use, Kind::shared));
+    EXPECT_TRUE(one.try_for(Part::use, LockKind::alone));
+    EXPECT_FALSE(other.try_for(Part::use, LockKind::shared));
     one.release(Part::use);
-    EXPECT_TRUE(other.try_for(Part::use, Kind::alone));
+    EXPECT_TRUE(other.try_for(Part::use, LockKind::alone));
   }
-  EXPECT_TRUE(one.try_for(Part::use, Kind::alone)) << "whoever ends releases";
+  EXPECT_TRUE(one.try_for(Part::use, LockKind::alone)) << "whoever ends releases";
 }
 
 TEST_F(TheLockOfAStore, KeepsItsNote) {
