@@ -177,14 +177,14 @@ TEST_F(TheDesk, SendsAwayWhoMisbehavesAndKeepsALog) {
   const Browser eve = visitor(), grace = moderator(), ada = operator_();
   ASSERT_EQ(call(eve, "POST", "/forum", post()).status, 200);
   const std::string path = std::string{"/posts/"} + kPost;
+  now_ = now_.load() + seconds(1.0);
   EXPECT_EQ(call(grace, "POST", path + "/send_away").status, 200);
   EXPECT_EQ(reason(call(eve, "POST", "/forum", post())), "not_allowed");
   EXPECT_EQ(reason(call({}, "POST", "/visitor", R"({"name":"Eve"})")), "sent_away") << "from the same address";
-  const auto lines = nlohmann::json::parse(call(ada, "GET", "/audit").body).at("lines");
-  EXPECT_EQ(lines.at(0).at("what"), "send_away");
-  EXPECT_EQ(lines.at(0).at("who"), "account:grace");
-  EXPECT_EQ(lines.at(0).at("about"), kPost);
-  EXPECT_EQ(lines.at(0).at("address"), "192.0.2.1");
+  const auto line = nlohmann::json::parse(call(ada, "GET", "/audit").body).at("lines").at(0);
+  EXPECT_EQ(line.at("what"), "send_away");
+  EXPECT_EQ(line.at("who").get<std::string>() + " " + line.at("address").get<std::string>(), "account:grace 192.0.2.1");
+  EXPECT_EQ(line.at("about"), kPost);
   // Nobody sends away those who have accounts.
   constexpr const char* kOther = "01900000-0000-7000-8000-000000000002";
   ASSERT_EQ(call(ada, "POST", "/forum", post(kOther)).status, 200);

@@ -22,7 +22,7 @@ struct Browser {
 class TheEndpoints : public testing::Test {
  protected:
   TheEndpoints() {
-    std::filesystem::remove(path_);
+    std::filesystem::create_directories(folder_);
     ApiParams params;
     params.reads_per_second = params.writes_per_second = params.logins_per_minute = 1000.0;
     desk_ = std::move(*Desk::open(
@@ -32,7 +32,7 @@ class TheEndpoints : public testing::Test {
   }
   ~TheEndpoints() override {
     desk_.reset();
-    for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(path_ + end);
+    std::filesystem::remove_all(folder_);
   }
   ApiReply call(const Browser& from, const std::string& method, const std::string& path, const std::string& body = "") {
     ApiRequest request;
@@ -60,7 +60,9 @@ class TheEndpoints : public testing::Test {
   }
   void spoil(const std::string& statement) { ASSERT_TRUE((*Database::open(path_))->run(statement)); }
 
-  const std::string path_ = testing::TempDir() + "/endpoints-" + std::to_string(::getpid()) + ".sqlite";
+  const std::filesystem::path folder_ =
+      std::filesystem::path{testing::TempDir()} / ("endpoints-" + std::to_string(::getpid()));
+  const std::string path_ = folder_ / "web.sqlite";
   std::unique_ptr<Desk> desk_;
 };
 
