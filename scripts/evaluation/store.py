@@ -89,6 +89,12 @@ def tokens_left(folder, name, spoiled):
     return left
 
 
+def hit(contents, spoiled):
+    """The tokens whose row had a byte spoiled: with a wrong byte in a text it is a row like others, which nothing tells from a right one."""
+    return {match[0].decode() for file, places in spoiled.items() for match in TOKEN.finditer(contents.get(file, b""))
+            if any(abs(match.start() - at) < ROW for at in places)}
+
+
 def flip(path, draw, count, first=0, last=None):
     """Spoils bytes. Returns where."""
     places = []
@@ -160,10 +166,11 @@ def one_damage(program, kind, seed, most=1500, crippled=False):
             left = set(before)  # what it has open is there still
             damage(kind, folder, draw)
         else:
+            contents = {name: (folder / name).read_bytes() for name in ("web.sqlite", "web.sqlite-wal")}
             spoiled, was_done = damage(kind, folder, draw)
             if not was_done:
                 return None
-            left = before & tokens_left(folder, "web.sqlite", spoiled)
+            left = before & tokens_left(folder, "web.sqlite", spoiled) - hit(contents, spoiled)
         seconds = None
         if not is_down:
             told = (lambda lines: any("disk is full" in line for line in lines)) if kind == "disk full" else (lambda lines: bool(of(lines, "notice")))
@@ -173,7 +180,7 @@ def one_damage(program, kind, seed, most=1500, crippled=False):
             time.sleep(draw.uniform(0.1, 0.5))
             said = writer.kill()
             if kind == "flipped bytes":  # SQLite went on writing into spoiled pages: what it has overwritten is gone
-                left = set(of(said, "stored")) & tokens_left(folder, "web.sqlite", spoiled)
+                left = set(of(said, "stored")) & tokens_left(folder, "web.sqlite", spoiled) - hit(contents, spoiled)
             else:  # what was acknowledged after it was noticed is there
                 left |= set(of(said, "stored")) - before
         if crippled:

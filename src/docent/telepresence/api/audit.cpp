@@ -1,6 +1,8 @@
 #include "docent/telepresence/api/audit.h"
 
+#include <atomic>
 #include <charconv>
+#include <cstdio>
 #include <utility>
 
 #include "docent/telepresence/accounts/secrets.h"
@@ -40,8 +42,13 @@ Result<std::unique_ptr<Audit>> Audit::open(Database& database) {
 }
 
 Result<void> Audit::add(const AuditEntry& entry) {
-  return done(database_.run("INSERT INTO audit (id, time, who, what, about, address) VALUES ($1, $2, $3, $4, $5, $6)",
-                            {make_token(), entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
+  static std::atomic<std::uint64_t> added{0};  // what came at the same time stands in the order of its coming
+  char id[2 * kPlaceLetters];
+  std::snprintf(id, sizeof id, "%016llx%s", static_cast<unsigned long long>(++added),
+                make_token().substr(0, kPlaceLetters - 16).c_str());
+  return done(
+      database_.run("INSERT INTO audit (id, time, who, what, about, address) VALUES ($1, $2, $3, $4, $5, $6)",
+                    {std::string{id}, entry.time.nanoseconds, entry.who, entry.what, entry.about, entry.address}));
 }
 
 Result<void> Audit::count(const AuditEntry& entry) {

@@ -25,11 +25,11 @@ struct AuditEntry {
 
 /// What is looked for; what is empty does not matter.
 struct AuditSearch {
-  std::string account{};        ///< its name, or a person's id
-  std::string address{};        ///< or the beginning of one
-  std::optional<Time> from{};   ///< then or later
-  std::optional<Time> until{};  ///< earlier
-  std::string before{};         ///< the `place` of the last entry of the page before
+  std::string account = {};        ///< its name, or a person's id
+  std::string address = {};        ///< or the beginning of one
+  std::optional<Time> from = {};   ///< then or later
+  std::optional<Time> until = {};  ///< earlier
+  std::string before = {};         ///< the `place` of the last entry of the page before
   int most = 100;
 };
 

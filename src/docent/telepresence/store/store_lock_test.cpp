@@ -7,8 +7,8 @@
 namespace docent::telepresence {
 namespace {
 
-using Part = StoreLock::Part;
-using LockKind = StoreLock::Kind;
+using Of = StoreLock::Part;
+using Held = StoreLock::Kind;
 
 class TheLockOfAStore : public testing::Test {
  protected:
@@ -24,17 +24,17 @@ TEST_F(TheLockOfAStore, HoldsBetweenConnectionsOfOneProcess) {
   const auto one = StoreLock::open(folder_ / "db").value();
   {
     const auto other = StoreLock::open(folder_ / "db").value();
-    EXPECT_TRUE(one.try_for(Part::use, LockKind::shared));
-    EXPECT_TRUE(other.try_for(Part::use, LockKind::shared));
-    EXPECT_FALSE(one.try_for(Part::use, LockKind::alone));
-    EXPECT_TRUE(one.try_for(Part::commit, LockKind::alone)) << "another part";
-    other.release(Part::use);
-    EXPECT_TRUE(one.try_for(Part::use, LockKind::alone));
-    EXPECT_FALSE(other.try_for(Part::use, LockKind::shared));
-    one.release(Part::use);
-    EXPECT_TRUE(other.try_for(Part::use, LockKind::alone));
+    EXPECT_TRUE(one.try_for(Of::use, Held::shared));
+    EXPECT_TRUE(other.try_for(Of::use, Held::shared));
+    EXPECT_FALSE(one.try_for(Of::use, Held::alone));
+    EXPECT_TRUE(one.try_for(Of::commit, Held::alone)) << "another part";
+    other.release(Of::use);
+    EXPECT_TRUE(one.try_for(Of::use, Held::alone));
+    EXPECT_FALSE(other.try_for(Of::use, Held::shared));
+    one.release(Of::use);
+    EXPECT_TRUE(other.try_for(Of::use, Held::alone));
   }
-  EXPECT_TRUE(one.try_for(Part::use, LockKind::alone)) << "whoever ends releases";
+  EXPECT_TRUE(one.try_for(Of::use, Held::alone)) << "whoever ends releases";
 }
 
 TEST_F(TheLockOfAStore, KeepsItsNote) {

@@ -172,9 +172,15 @@ std::vector<Cell> TreePage::rows(const IsRow& is_row) const {
   if (is_whole)
     for (const std::size_t place : listed(kLeafHeader)) is_whole = !is_taken[place] && take(place) && is_whole;
   const auto taken = static_cast<std::size_t>(std::count(is_taken.begin(), is_taken.end(), true));
-  if (is_whole && free_bytes() == images_.usable - big_endian<2>(image_, begin_ + 5) - taken) return rows;
-  for (std::size_t at = first_cell(); at + 3 < images_.usable; ++at)
+  was_whole_ = is_whole && free_bytes() == images_.usable - big_endian<2>(image_, begin_ + 5) - taken;
+  if (was_whole_) return rows;
+  const std::size_t first = first_cell();
+  for (std::size_t at = first; at + 3 < images_.usable; ++at)
     if (!is_taken[at] && image_[at] != 0) take(at);
+  const std::size_t sure = rows.size();
+  for (std::size_t at = begin_ + kLeafHeader; at < first; ++at)
+    if (!is_taken[at] && image_[at] != 0) take(at);
+  for (std::size_t i = sure; i < rows.size(); ++i) rows[i].is_remains = true;
   return rows;
 }
 

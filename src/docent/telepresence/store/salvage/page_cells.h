@@ -16,6 +16,7 @@ enum class PageKind : std::uint8_t { index_inside = 2, table_inside = 5, index_l
 struct Cell {
   std::int64_t id = 0;  ///< of a table's row
   std::vector<Value> values;
+  bool is_remains = false;  ///< it stands where cells have been before: it was moved, or deleted
 };
 
 /// One page of a tree, read with suspicion.
@@ -29,6 +30,8 @@ class TreePage {
   using IsRow = std::function<bool(const std::vector<Value>&)>;
   /// All that can be read as a row of a table; where the page's own list is not whole, also what is not listed.
   [[nodiscard]] std::vector<Cell> rows(const IsRow& is_row) const;
+  /// Of a leaf of a table: whether the last `rows` found all that the page lists, and nothing between.
+  [[nodiscard]] bool was_whole() const { return was_whole_; }
   /// Of an index, leaf or not: its entries.
   [[nodiscard]] std::vector<Cell> entries() const;
 
@@ -42,6 +45,7 @@ class TreePage {
   std::string_view image_;
   std::size_t begin_;  ///< of its header: page 1 has that of the file before it
   PageKind kind_;
+  mutable bool was_whole_ = true;
 };
 
 }  // namespace docent::telepresence

@@ -90,8 +90,9 @@ class Salvager {
       if (number > 1 && !seen_.contains(number)) read_stray(number, image, false);
     for (const auto& page : images_.doubtful)
       if (page.number != 1) read_stray(page.number, page.image, page.is_newest, page.is_newest ? "" : kNeverOlder);
-    const bool is_whole =
-        std::all_of(found_.begin(), found_.end(), [](const auto& table) { return table.second.lost_pages == 0; });
+    const bool is_whole = std::all_of(found_.begin(), found_.end(), [](const auto& table) {
+      return table.second.lost_pages == 0 && table.second.spoiled_pages == 0;
+    });
     for (const auto& [number, image] : images_.older)
       if (!is_whole && number != 1) read_stray(number, image, false, kNeverOlder);
     return std::move(found_);
@@ -122,12 +123,14 @@ class Salvager {
         [&](std::uint32_t number, const TreePage& page) {
           auto rows = page.rows([&](const auto& values) { return shape.fits(values); });
           owner_[number] = entry.name;
+          if (!page.was_whole()) ++table.spoiled_pages;
           const bool is_empty_leaf = page.kind() == PageKind::table_leaf && page.is_empty();
           if (rows.empty() && !is_empty_leaf) {
             ++table.lost_pages;
             seen_.erase(number);  // it may be another's
           }
-          for (Cell& row : rows) keep(table, std::move(row), false);
+          for (Cell& row : rows)
+            if (!row.is_remains || is_in_index(entry.name, row)) keep(table, std::move(row), false);
         },
         [&] { ++table.lost_pages; });
   }
@@ -149,7 +152,8 @@ class Salvager {
         if (score > most) best = table;
         most = std::max(most, score);
       }
-      if (best != but_for) keep(found_[best], std::move(row), is_newer);
+      const bool is_deleted = row.is_remains && !is_in_index(best, row);
+      if (best != but_for && !is_deleted) keep(found_[best], std::move(row), is_newer);
     }
   }
 

@@ -38,7 +38,8 @@ struct SalvagedTable {
   std::map<std::int64_t, SalvagedRow> rows;
   /// Others that say the same id: one of the two is spoiled, or is what the row was before.
   std::vector<SalvagedRow> others;
-  std::size_t lost_pages = 0;  ///< that its tree names, and that hold nothing of it
+  std::size_t lost_pages = 0;     ///< that its tree names, and that hold nothing of it
+  std::size_t spoiled_pages = 0;  ///< of which some may be lost
 };
 
 /// The schema that a file holds; empty where that is lost.
