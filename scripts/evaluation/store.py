@@ -68,9 +68,11 @@ def ask(program, file, *what):
 
 def may_log_in(program, file, said):
     """With the last password that was said to be stored, or with one that was being stored when the end came."""
-    stored = [line.split(" ", 1)[1] for line in of(said, "password")]
-    tried = [line.split(" ", 1)[1] for line in of(said, "trying")]
-    candidates = stored[-1:] + [one for one in tried[-1:] if one not in stored]
+    candidates = []
+    for line in said:
+        word, _, rest = line.partition(" ")
+        if word in ("password", "trying"):
+            candidates = candidates * (word == "trying") + [rest.partition(" ")[2]]
     return any(ask(program, file, "login", "ada", one) == ["right"] for one in candidates)
 
 
@@ -203,7 +205,7 @@ def one_damage(program, kind, seed, most=1500, crippled=False):
 def kills(program, count, seed):
     """One store, killed again and again."""
     draw = random.Random(f"store/kills/{seed}")
-    stored, all_lost, refused_logins, said = set(), set(), 0, []
+    stored, all_lost, refused_logins, said, passwords = set(), set(), 0, [], []
     with tempfile.TemporaryDirectory(prefix="docent-store-trial-") as folder:
         file = folder + "/web.sqlite"
         for number in range(count):
@@ -213,11 +215,12 @@ def kills(program, count, seed):
             lines = writer.kill()
             stored |= set(of(lines, "stored"))
             said += of(lines, "notice")
+            passwords += [line for line in lines if line.startswith(("password ", "trying "))]
             if number % 10 == 9 or number == count - 1:
                 found = ask(program, file, "read")
                 all_lost |= stored - set(of(found, "has"))
                 said += of(found, "notice")
-                refused_logins += not may_log_in(program, file, lines)
+                refused_logins += not may_log_in(program, file, passwords)
     return stored, all_lost, refused_logins, said
 
 

@@ -74,8 +74,8 @@ int write(Trial& trial, const std::string& file, const std::string& name) {
   const StoreBackups backups{std::filesystem::path{file}.parent_path(), file, ""};
   const std::int64_t today = now().nanoseconds / 1'000'000'000;
   if (backups.is_due(today)) (void)is_stored(backups.make(today));
-  (void)trial.accounts->add("ada", "password of ada", Rank::operator_, now());
-  say("password", "ada", "password of ada");
+  say("trying", "ada", "password of ada");
+  if (trial.accounts->add("ada", "password of ada", Rank::operator_, now())) say("password", "ada", "password of ada");
   for (int number = 1;; ++number) {
     const std::string token = "wish<" + name + "-" + std::to_string(number) + ">";
     docent_msgs::Request wish;

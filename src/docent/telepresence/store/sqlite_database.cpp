@@ -195,9 +195,13 @@ class SqliteDatabase final : public Database {
       return "damaged";
     }
     const auto copy = TableCopy::read(files_.accounts());
-    const bool is_repaired = copy && copy->repair(database) > 0;
+    // Whoever was killed between the commit and its copy has damaged nothing.
+    const auto next = TableCopy::read(files_.next_accounts());
+    const bool is_newer = next && TableCopy::of(database) == next;
+    const bool is_repaired = copy && !is_newer && copy->repair(database) > 0;
     const auto now = TableCopy::of(database);
     if (now && now != copy) (void)now->write(files_.accounts());
+    ::unlink(files_.next_accounts().c_str());
     if (!is_repaired) return "";
     say(kAccountsMended);
     return kAccountsMended;
@@ -347,7 +351,9 @@ class SqliteDatabase final : public Database {
     has_accounts_changed_ = false;
     const auto now = TableCopy::of(connection_->getHandle());
     if (!now) return {};
-    return now->write(files_.accounts());
+    auto kept = now->write(files_.accounts());
+    if (kept) ::unlink(files_.next_accounts().c_str());
+    return kept;
   }
 
   /// What is committed counts when it is in the files that have the database's name.
@@ -365,6 +371,10 @@ class SqliteDatabase final : public Database {
         has_begun_ = false;
         if (was_in_transaction) connection_->exec("ROLLBACK");
         return fail(files_.file().string() + ": " + fault_);
+      }
+      if (was_in_transaction && has_accounts_changed_) {
+        const auto next = TableCopy::of(connection_->getHandle());
+        if (auto kept = next ? next->write(files_.next_accounts()) : Result<void>{}; !kept) return kept;
       }
       work();
       is_gone_ = false;

@@ -152,6 +152,18 @@ TEST_F(TheFilesOfAStore, GiveBackAnAccountWhosePasswordIsSpoiled) {
   EXPECT_EQ(kept("damaged"), 0);
 }
 
+TEST_F(TheFilesOfAStore, TakeNoChangeForADamageThatWasCommittedAndNotYetCopied) {
+  const std::string before = *read_file(file_.string() + ".accounts");
+  ASSERT_TRUE(database_->in_transaction([&] { return done(database_->run("UPDATE accounts SET hash = 'another'")); }));
+  database_.reset();
+  std::filesystem::rename(file_.string() + ".accounts", file_.string() + ".accounts.next");
+  std::ofstream{file_.string() + ".accounts", std::ios::binary} << before;
+  open();
+  EXPECT_EQ(hash(), "another");
+  EXPECT_EQ(database_->notice(), "");
+  EXPECT_NE(*read_file(file_.string() + ".accounts"), before);
+}
+
 TEST_F(TheFilesOfAStore, DoNotGiveBackAnAccountThatWasRemoved) {
   ASSERT_TRUE(database_->run("DELETE FROM accounts WHERE name = 'ada'"));
   database_.reset();

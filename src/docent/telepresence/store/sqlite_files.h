@@ -17,6 +17,8 @@ class SqliteFiles {
   [[nodiscard]] std::filesystem::path wal() const { return file_.string() + "-wal"; }
   [[nodiscard]] std::filesystem::path index() const { return file_.string() + "-shm"; }
   [[nodiscard]] std::filesystem::path accounts() const { return file_.string() + ".accounts"; }
+  /// As they will be when what is being committed is.
+  [[nodiscard]] std::filesystem::path next_accounts() const { return file_.string() + ".accounts.next"; }
   [[nodiscard]] std::filesystem::path backups() const { return file_.parent_path() / "backups"; }
   [[nodiscard]] std::filesystem::path newest_backup() const;  ///< of this database; empty: there is none
 

@@ -129,7 +129,7 @@ Result<fs::path> StoreBackups::restore_database(const fs::path& backup, const fs
   fs::path aside;
   if (fs::exists(database, code)) aside = dated_name(database, "replaced");
   // The accounts are those of the backup too; those that were there stay with their database.
-  for (const char* end : {"-wal", "-shm", ".accounts", ""}) {
+  for (const char* end : {"-wal", "-shm", ".accounts", ".accounts.next", ""}) {
     const fs::path old = database.string() + end;
     if (!fs::exists(old, code)) continue;
     const fs::path kept = (aside.empty() ? dated_name(database, "replaced") : aside).string() + end;
