@@ -24,6 +24,7 @@ constexpr double kHardlyKnown = 2.0;     // likewise, however large the error se
 constexpr double kMostContradict = 6.0;  // mean squared sigmas: half of the pairs contradict the estimate
 constexpr double kBeyondDoubt = 8.0;     // standard deviations
 constexpr double kElsewhere = 4.0;       // standard deviations
+constexpr double kDelaysErr = 1.5;       // of a delay's stated error: a few turns among people err alike
 constexpr double kStaysKnown = 1.5;      // of the errors up to which a mount counts as known
 
 std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
@@ -259,8 +260,8 @@ void MountCalibrator::judge(std::size_t scanner) {
       result.is_contradicted && (result.base_from_sensor.x != nominal.x || result.base_from_sensor.y != nominal.y);
   const bool is_displaced =
       contradicts(std::hypot(x, y), estimate.sigma_position(), params_.named_position, is_displaced_before);
-  const bool is_late =
-      contradicts(estimate.state.delay, estimate.sigma(kMountDelay), params_.named_delay, result.delay != 0.0);
+  const bool is_late = contradicts(estimate.state.delay, kDelaysErr * estimate.sigma(kMountDelay), params_.named_delay,
+                                   result.delay != 0.0);
   say(result, {is_turned, is_displaced, is_late}, nominal_[scanner]);
   result.is_contradicted = is_turned || is_displaced || is_late;
   result.base_from_sensor = nominal;
