@@ -7,15 +7,12 @@
 #include <vector>
 
 namespace docent::collision_avoidance {
-namespace {
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-}  // namespace
 
 int count_by_law(std::span<const float> expected, const SweepView& view, double scale, double offset,
                  const RangeLawParams& params) {

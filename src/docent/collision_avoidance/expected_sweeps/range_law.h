@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 
@@ -31,6 +32,9 @@ struct RangeLaw {
 
   [[nodiscard]] bool is_as_expected(double share) const { return as_expected >= share * compared; }
 };
+
+/// The greater one of the middle two; `values` change their order. @pre not empty. O(values)
+[[nodiscard]] double median(std::vector<double>& values);
 
 /// How many samples read `scale` times what was expected and `offset` [m] more.
 /// @param expected  [samples of view] [m]; NaN: nothing is known

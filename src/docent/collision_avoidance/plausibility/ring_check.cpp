@@ -4,16 +4,6 @@
 #include <cmath>
 
 namespace docent::collision_avoidance {
-namespace {
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
-
 void RingEchoes::hear(int ring, std::size_t index, const SonarReading& reading, const Pose2& odom_from_base) {
   const auto [place, is_new] = places_.try_emplace({ring, index}, echoes_.size());
   if (is_new) echoes_.emplace_back();
@@ -22,11 +12,10 @@ void RingEchoes::hear(int ring, std::size_t index, const SonarReading& reading, 
                             is_echo ? reading.range : 0.0};
 }
 
-std::optional<RingCheck::Vote> RingCheck::vote_of(const RingEcho& echo, const SweepView& view,
-                                                  const Pose2& odom_from_sensor) const {
+std::optional<RingCheck::Vote> RingCheck::vote_of(const RingEcho& echo, const SweepView& view) const {
   if (!(echo.range >= params_.least_range && echo.range <= params_.most_range)) return std::nullopt;
   if (std::abs(to_seconds(view.stamp - echo.stamp)) > params_.together) return std::nullopt;
-  const Pose2 laser_from_ring = inverse(odom_from_sensor) * echo.odom_from_sensor;
+  const Pose2 laser_from_ring = inverse(view.odom_from_sensor) * echo.odom_from_sensor;
   const Point2 at = laser_from_ring * Point2{echo.range, 0.0};
   const double range = norm(at);
   const long middle = view.sample_to(at);
@@ -144,17 +133,16 @@ std::optional<double> RingCheck::agreement() const {
   return static_cast<double>(agreement.agree) / agreement.compared;
 }
 
-void RingCheck::collect(const SweepView& view, const Pose2& odom_from_sensor, std::span<const RingEcho> echoes,
-                        Votes& votes) const {
-  votes.resize(echoes.size());
+void RingCheck::collect(const SweepView& view, std::span<const RingEcho> echoes) {
+  votes_.resize(echoes.size());
   for (std::size_t i = 0; i < echoes.size(); ++i) {
-    if (auto vote = vote_of(echoes[i], view, odom_from_sensor)) votes[i] = *vote;
-    if (votes[i].reading > 0.0 && view.stamp - votes[i].stamp > seconds(params_.memory)) votes[i] = {};
+    if (auto vote = vote_of(echoes[i], view)) votes_[i] = *vote;
+    if (votes_[i].reading > 0.0 && view.stamp - votes_[i].stamp > seconds(params_.memory)) votes_[i] = {};
   }
 }
 
 RingCheck::Finding RingCheck::add(const SweepView& view, std::span<const RingEcho> echoes) {
-  collect(view, view.odom_from_sensor, echoes, votes_);
+  collect(view, echoes);
   Finding finding;
   finding.too_long = law();
   const std::optional<double> share = agreement();

@@ -88,13 +88,10 @@ class RingCheck {
   struct Agreement {
     int compared = 0;
     int agree = 0;
-    [[nodiscard]] bool is_at_least(double share) const { return agree >= share * compared; }
   };
   [[nodiscard]] static Agreement agreement_of(const Votes& votes);
-  void collect(const SweepView& view, const Pose2& odom_from_sensor, std::span<const RingEcho> echoes,
-               Votes& votes) const;
-  [[nodiscard]] std::optional<Vote> vote_of(const RingEcho& echo, const SweepView& view,
-                                            const Pose2& odom_from_sensor) const;
+  void collect(const SweepView& view, std::span<const RingEcho> echoes);
+  [[nodiscard]] std::optional<Vote> vote_of(const RingEcho& echo, const SweepView& view) const;
   [[nodiscard]] std::optional<RangeLaw> law() const;
   [[nodiscard]] double span_of(const RangeLaw& law) const;
   [[nodiscard]] bool follows(const Vote& vote, const RangeLaw& law) const;

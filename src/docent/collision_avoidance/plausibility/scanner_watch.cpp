@@ -285,7 +285,7 @@ void ScannerWatch::judge_motion(const SweepView& view) {
       break;
     }
     case MotionCheck::Finding::late:
-      // Wheels that slip look the same: old sweeps are known by their repetition and by sonars, delays by `calibrate`.
+      // Wheels that slip look the same: old sweeps are known by their repetition, delays by `calibrate`.
       break;
     case MotionCheck::Finding::in_order:
       if (!lie_) {
