@@ -15,6 +15,8 @@
 :- use_module(program).
 :- use_module(travel).
 
+:- dynamic way/3.  % place, place, metres or none; those from and to the robot's place last as long as one question
+
 :- set_prolog_gc_thread(false).  % a program's steps depend on nothing but what they are given
 
 %!  serve is det.
@@ -45,6 +47,8 @@ take_line(In) :-
 hear(In, Term) :- read_term(In, Term, [module(golog_host), double_quotes(string)]).
 
 reply(Question) :-
+    retractall(way(somewhere, _, _)),
+    retractall(way(_, somewhere, _)),
     nb_getval(golog_agent, Agent),
     catch(( answer(Question, Agent, NewAgent, Found)
           -> Said = [found, Found]
@@ -96,9 +100,16 @@ spoken(Action, [Name | Arguments]) :-
 spoken_argument(Given, Said) :- ( Given == [] -> Said = "[]" ; atomic(Given) -> Said = Given ; Said = [] ).
 
 %!  travel(+From, +To, -Metres) is semidet.
+%   Asked once: a search for the best order comes back to the same ways thousands of times.
 travel(From, To, Metres) :-
     atomic(From), atomic(To),
-    ask([travel, From, To], Metres).
+    (   way(From, To, Known)
+    ->  true
+    ;   ( ask([travel, From, To], Known) -> true ; Known = none ),
+        assertz(way(From, To, Known))
+    ),
+    number(Known),
+    Metres = Known.
 
 %!  order(+From, +Places, -Order) is semidet.
 order(From, Places, Order) :-

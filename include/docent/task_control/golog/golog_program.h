@@ -78,6 +78,7 @@ class GologProgram {
  public:
   /// @returns every fault, "FILE:LINE: what is wrong"; none: the program may run.
   [[nodiscard]] static std::vector<Error> faults(const std::filesystem::path& file, const Programme& programme);
+  /// @param travel  between places the same all along
   /// @param main  the procedure to run instead of the file's own `main`; empty: that one. Error: the first fault.
   [[nodiscard]] static Result<GologProgram> load(const GologParams& params, const std::filesystem::path& file,
                                                  Programme programme, TravelDistance travel,

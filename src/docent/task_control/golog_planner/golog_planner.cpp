@@ -14,7 +14,9 @@ using Json = nlohmann::json;
 
 constexpr std::string_view kStandsIn = "stand-in ";      // before the memory of a program that has failed
 constexpr Duration kAskAgain = std::chrono::seconds{1};  // what may be visited: to compose a tour takes a while
-constexpr int kMostActions = 50;  // that begin at one moment: more is a program that turns round in itself
+// Of actions that begin and stop: more is a program that turns round in itself, at one moment or from one to the next.
+constexpr int kMostActions = 50;
+constexpr Duration kHurry = std::chrono::seconds{10};
 
 std::string argument(const GologTerm& term) {
   if (term.arguments.empty()) return "";
@@ -132,7 +134,8 @@ void GologPlanner::run(Mission& mission, Time now) {
   if (opens && has_ended_) {
     if (const auto begun = program_.begin_again(); !begun) return fail(mission, begun.error(), now);
   }
-  for (int i = 0; i < kMostActions; ++i) {
+  if (now - hurry_.since > kHurry) hurry_ = {now};
+  while (++hurry_.actions <= kMostActions) {
     const auto step = program_.step(now, mission.position(), events);
     if (!step && !events.empty()) known_ = before;  // it has not heard of them
     if (!step) return fail(mission, step.error(), now);
@@ -145,11 +148,13 @@ void GologPlanner::run(Mission& mission, Time now) {
     } else if (step->kind == GologStep::Kind::stop) {
       stop(mission, step->action, now);
     } else {
+      --hurry_.actions;
       remember();
       return;
     }
     if (stands_in_) return;
   }
+  hurry_ = {now};
   fail(mission, Error{"the program begins one action after the other and comes to no end"}, now);
 }
 

@@ -95,6 +95,10 @@ class GologPlanner final : public Planner {
     bool is_closing = false;
   };
   Known known_;
+  struct {
+    Time since{};
+    int actions = 0;  ///< that have begun or stopped since then
+  } hurry_;
   std::string instead_of_;  ///< why the museum's own program is not carried out
   std::string memory_;
   std::string fault_;

@@ -416,5 +416,18 @@ TEST_F(GologPlannerTest, AProgramWhoseProcessHasEndedIsToldAllAnew) {
   std::filesystem::remove(file);
 }
 
+// No single moment has many actions, but none of them takes time.
+TEST_F(GologPlannerTest, AProgramThatGoesToAndFroWithoutEndIsStopped) {
+  start_text("proc(main, [?(some(E, due(E))), while(true, [drive(e1), drive(home)])]).\n");
+  wish("1", RequestKind::exhibit, "e5");
+  for (int i = 0; i < 200 && mission->planner_fault().empty(); ++i) {
+    mission->report(TaskOrder{mission->task()}.id, TaskStatus::done, ReasonWord::way_blocked, time(), false);
+    mission->tick(time());
+  }
+  EXPECT_NE(mission->planner_fault().find("comes to no end"), std::string::npos);
+  pass(0.5);
+  EXPECT_EQ(task(), "visit e5") << "the plan controller stands in";
+}
+
 }  // namespace
 }  // namespace docent::task_control
