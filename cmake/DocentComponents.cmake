@@ -27,8 +27,7 @@ docent_component(mapping FOLDERS mapping DEPENDS models museum core
 docent_component(planning FOLDERS planning DEPENDS models core)
 docent_component(avoidance FOLDERS collision_avoidance DEPENDS models core)
 docent_component(people FOLDERS people DEPENDS models core)
-docent_component(tours FOLDERS task_control/travel_times task_control/tour_scheduler task_control/golog DEPENDS planning core
-  PACKAGES "find_package(PkgConfig QUIET)" "pkg_check_modules(SWIPL QUIET IMPORTED_TARGET swipl)" LIBRARIES PkgConfig::SWIPL)
+docent_component(tours FOLDERS task_control/travel_times task_control/tour_scheduler task_control/golog DEPENDS planning core)
 docent_component(bus FOLDERS messages transport DEPENDS core
   PACKAGES "find_package(CycloneDDS QUIET)" LIBRARIES CycloneDDS::ddsc)
 docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES sqlite3 zstd z)

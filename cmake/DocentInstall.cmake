@@ -114,7 +114,7 @@ The package holds the program, its page, two museums with a simulated world
 each, a systemd unit, and the messages for DDS and ROS 2.")
 set(CPACK_DEBIAN_DOCENT_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_DOCENT_PACKAGE_SHLIBDEPS ON)
-# Its library alone starts nothing; shlibdeps names a virtual package.
+# A program that is started, and no library that is linked.
 set(CPACK_DEBIAN_DOCENT_PACKAGE_DEPENDS "swi-prolog-core")
 # Without espeak-ng it has no voice, without the fonts pictures have no letters; alsa-utils names the sound cards.
 set(CPACK_DEBIAN_DOCENT_PACKAGE_RECOMMENDS "espeak-ng, fonts-dejavu-core")
@@ -134,7 +134,7 @@ and examples.")
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_SECTION libdevel)
 # What docentConfig.cmake finds, and what the headers include.
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_DEPENDS "cyclonedds-dev, libceres-dev, libeigen3-dev, libexpected-dev, libpng-dev, \
-libsqlite3-dev, libyaml-cpp-dev, libzstd-dev, pkg-config, swi-prolog-core, zlib1g-dev")
+libsqlite3-dev, libyaml-cpp-dev, libzstd-dev, swi-prolog-core, zlib1g-dev")
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_RECOMMENDS "cmake, g++")
 
 if(DOCENT_PYTHON)

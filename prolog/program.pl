@@ -7,7 +7,6 @@
 :- use_module(library(lists)).
 :- use_module(library(error)).
 :- use_module(library(occurs)).
-:- use_module(library(readutil)).
 :- use_module(situation).
 :- use_module(travel, []).
 
@@ -103,9 +102,12 @@ syntax_text(File, Line, E, Text) :-
     format(string(Text), "~s; ~s", [Said, Hint]).
 
 file_line(File, Line, Text) :-
-    read_file_to_string(File, All, [encoding(utf8)]),
+    file_text(File, All),
     split_string(All, "\n", "", Lines),
     nth1(Line, Lines, Text).
+
+% Not by library(readutil): a part of that library lies in a package that a robot need not have.
+file_text(File, Text) :- setup_call_cleanup(open(File, read, In, [encoding(utf8)]), read_string(In, _, Text), close(In)).
 
 singleton_faults([], _, _, Faults, Faults).
 singleton_faults([Name = V | More], Clause, D, [Fault | Faults], Rest) :-
@@ -167,7 +169,7 @@ name_variable(Name = '$VAR'(Name)).
 
 culprit_line(where(Line0, Start, Positions), File, Term, Culprit, Line) :-
     (   subterm_start(Term, Positions, Culprit, At)
-    ->  read_file_to_string(File, All, [encoding(utf8)]),
+    ->  file_text(File, All),
         Length is At - Start,
         sub_string(All, Start, Length, _, Between),
         split_string(Between, "\n", "", Lines),
@@ -350,6 +352,7 @@ fault_text(error(E0, Context), D, Text) :-
     ;   message_text(E, Context, Message),
         string_codes(Text, Message)
     ), !.
+fault_text(E, D, Text) :- procedure_at(D, main/0, File, _), !, format(string(Text), "~w: the program throws ~q", [File, E]).
 fault_text(E, _, Text) :- format(string(Text), "~q", [E]).
 
 message_text(golog(Fault), _, Codes) :- !, phrase(fault(Fault), Parts), format_parts(Parts, Codes).

@@ -15,18 +15,27 @@
 
 namespace docent::task_control {
 
+class PrologProcess;
+struct PrologValue;
+
 /// How far a program may go.
 struct GologParams {
   /// [inferences] > 0 of one step; about 0.4 s. The next action for 13 exhibits takes 0.1 million.
   std::int64_t most_inferences = 10'000'000;
+  double answer_s = 3.0;         ///< [s] > 0 of computing or sleeping for one answer: then its process is ended
+  std::int64_t memory_mb = 512;  ///< [MB] >= 256 of addresses of its process; Prolog itself takes 150
   template <class V>
   void visit(V& v) {
     v("most_inferences", most_inferences);
+    v("answer_s", answer_s);
+    v("memory_mb", memory_mb);
   }
   [[nodiscard]] Result<void> validate() const;
 };
 
-/// The file of the museum's own program: FOLDER/tour.pl where it exists, else prolog/tour_guide.pl, which is shipped.
+/// The program that comes with Docent, prolog/tour_guide.pl.
+[[nodiscard]] std::filesystem::path shipped_golog_file();
+/// The file of the museum's own program: FOLDER/tour.pl where it exists, else the shipped one.
 [[nodiscard]] std::filesystem::path golog_file(const std::filesystem::path& museum_folder);
 
 /// What a robot that carries out a program is told next.
@@ -61,13 +70,15 @@ struct GologForesight {
 /// The program is the museum's file, its domain prolog/museum.pl; places are the ids of exhibits, `home`, `charger` and
 /// `somewhere`, the robot's place between them. The order of more than six exhibits is `shortest_order`.
 ///
-/// A program is trusted like code: it may call any Prolog. Faults name file and line, and a step that takes more than
-/// `most_inferences` is cut; then nothing has changed. Deterministic; knows no clock and no messages. All programs of a
-/// process share one Prolog and take turns; they may be asked from any thread.
+/// A program may call any Prolog, and runs in a process of its own. Faults name file and line, and a step that takes
+/// more than `most_inferences` is cut; then nothing has changed. A program that gives no answer, takes all memory or
+/// halts ends its process: that is an error, too, and with the next call the program begins anew, as it was loaded.
+/// Deterministic but for that; knows no clock and no messages. Asked by one thread at a time.
 class GologProgram {
  public:
   /// @returns every fault, "FILE:LINE: what is wrong"; none: the program may run.
   [[nodiscard]] static std::vector<Error> faults(const std::filesystem::path& file, const Programme& programme);
+  /// @param travel  between places the same all along
   /// @param main  the procedure to run instead of the file's own `main`; empty: that one. Error: the first fault.
   [[nodiscard]] static Result<GologProgram> load(const GologParams& params, const std::filesystem::path& file,
                                                  Programme programme, TravelDistance travel,
@@ -101,20 +112,31 @@ class GologProgram {
   [[nodiscard]] Result<std::string> snapshot();
   /// Error: no snapshot, or one of a program with other procedures or actions; then nothing has changed.
   [[nodiscard]] Result<void> restore(const std::string& snapshot);
+  /// No: its process has ended, and with it what it knew; the next call begins it anew.
+  [[nodiscard]] bool is_alive() const;
 
  private:
-  GologProgram(const GologParams& params, Programme programme, TravelDistance travel);
-  [[nodiscard]] std::vector<Error> read(const std::filesystem::path& file, const std::string& main);
+  struct Source {
+    std::filesystem::path file;
+    std::string main;
+  };
+  GologProgram(const GologParams& params, Programme programme, TravelDistance travel, Source source);
+  /// Begins a process that reads the program. @returns its faults
+  [[nodiscard]] std::vector<Error> read();
+  [[nodiscard]] Result<PrologValue> asked(const std::string& question);
+  /// The same; a process that has ended is begun anew before.
+  [[nodiscard]] Result<PrologValue> ask(const std::string& question);
   [[nodiscard]] std::optional<Point2> place(const std::string& name) const;
+  [[nodiscard]] std::optional<double> way(const std::string& from, const std::string& to) const;
+  [[nodiscard]] std::optional<std::vector<std::string>> order(const std::string& from,
+                                                              const std::vector<std::string>& places) const;
 
-  friend class ProgramTurn;
   GologParams params_;
   Programme programme_;
   TravelDistance travel_;
+  Source source_;
   Point2 robot_;
-  std::string domain_;  ///< the Prolog module that holds it; empty: moved away
-  struct Agent;
-  std::unique_ptr<Agent> agent_;  ///< what is left of the program, and what is true
+  std::unique_ptr<PrologProcess> process_;
 };
 
 }  // namespace docent::task_control

@@ -230,11 +230,17 @@ class MissionModule final : public Module {
 Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& context,
                                                           const MissionModuleParams& params) {
   if (params.planner == "plans") return std::make_unique<task_control::PlanController>();
-  auto program = task_control::GologProgram::load(
-      params.golog.program, task_control::golog_file(context.museum.folder), task_control::programme_of(context.museum),
-      task_control::travel_in(context.museum, context.config.body().radius));
-  if (!program) return tl::unexpected<Error>(program.error());
-  return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*program));
+  const auto programme = task_control::programme_of(context.museum);
+  const auto travel = task_control::travel_in(context.museum, context.config.body().radius);
+  const auto own = task_control::golog_file(context.museum.folder);
+  auto program = task_control::GologProgram::load(params.golog.program, own, programme, travel);
+  if (program) return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*program));
+  // Visitors are guided all the same, and whoever wrote the program reads why it is not it.
+  auto shipped =
+      task_control::GologProgram::load(params.golog.program, task_control::shipped_golog_file(), programme, travel);
+  if (!shipped) return tl::unexpected<Error>(program.error());
+  return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*shipped),
+                                                      program.error().message + "; the shipped program guides");
 }
 
 }  // namespace

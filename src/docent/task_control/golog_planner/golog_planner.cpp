@@ -14,7 +14,9 @@ using Json = nlohmann::json;
 
 constexpr std::string_view kStandsIn = "stand-in ";      // before the memory of a program that has failed
 constexpr Duration kAskAgain = std::chrono::seconds{1};  // what may be visited: to compose a tour takes a while
-constexpr int kMostActions = 50;  // that begin at one moment: more is a program that turns round in itself
+// Of actions that begin and stop: more is a program that turns round in itself, at one moment or from one to the next.
+constexpr int kMostActions = 50;
+constexpr Duration kHurry = std::chrono::seconds{10};
 
 std::string argument(const GologTerm& term) {
   if (term.arguments.empty()) return "";
@@ -85,26 +87,26 @@ std::vector<GologTerm> GologPlanner::news(Mission& mission, const Situation& see
   const auto tell = [&](bool& told, bool is, const char* yes, const char* no) {
     if (std::exchange(told, is) != is) events.push_back({is ? yes : no, {}});
   };
-  if (seen.is_localized || seen.is_lost) tell(told_lost_, !seen.is_localized, "lost", "localized");
-  tell(told_blocked_, seen.is_blocked, "way_blocked", "way_free");
-  tell(told_closing_, !seen.is_open, "closing", "opening");
-  if (seen.charge && (!told_charge_ || std::abs(*seen.charge - *told_charge_) >= params_.battery_step)) {
-    told_charge_ = seen.charge;
+  if (seen.is_localized || seen.is_lost) tell(known_.is_lost, !seen.is_localized, "lost", "localized");
+  tell(known_.is_blocked, seen.is_blocked, "way_blocked", "way_free");
+  tell(known_.is_closing, !seen.is_open, "closing", "opening");
+  if (seen.charge && (!known_.charge || std::abs(*seen.charge - *known_.charge) >= params_.battery_step)) {
+    known_.charge = seen.charge;
     events.push_back({"battery", {*seen.charge}});
   }
   const std::uint64_t revision = mission.scheduler().state().board.revision();
-  if (seen.has_visit || (revision == asked_revision_ && now < ask_again_)) return events;
-  asked_revision_ = revision;
-  ask_again_ = now + kAskAgain;
+  if (seen.has_visit || (revision == known_.asked_revision && now < known_.ask_again)) return events;
+  known_.asked_revision = revision;
+  known_.ask_again = now + kAskAgain;
   const auto choices = mission.choices(now);
   const std::set<std::string> wanted{choices.begin(), choices.end()};
-  for (const std::string& exhibit : requested_) {
+  for (const std::string& exhibit : known_.requested) {
     if (!wanted.contains(exhibit)) events.push_back({"cancelled", {exhibit}});
   }
   for (const std::string& exhibit : wanted) {
-    if (!requested_.contains(exhibit)) events.push_back({"requested", {exhibit}});
+    if (!known_.requested.contains(exhibit)) events.push_back({"requested", {exhibit}});
   }
-  requested_ = wanted;
+  known_.requested = wanted;
   return events;
 }
 
@@ -125,14 +127,17 @@ void GologPlanner::watch(Mission& mission, const Situation& seen, Time now) {
 }
 
 void GologPlanner::run(Mission& mission, Time now) {
+  const Known before = known_;
   auto events = news(mission, mission.situation(now), now);
   const bool opens =
       std::any_of(events.begin(), events.end(), [](const auto& event) { return event.name == "opening"; });
   if (opens && has_ended_) {
     if (const auto begun = program_.begin_again(); !begun) return fail(mission, begun.error(), now);
   }
-  for (int i = 0; i < kMostActions; ++i) {
+  if (now - hurry_.since > kHurry) hurry_ = {now};
+  while (++hurry_.actions <= kMostActions) {
     const auto step = program_.step(now, mission.position(), events);
+    if (!step && !events.empty()) known_ = before;  // it has not heard of them
     if (!step) return fail(mission, step.error(), now);
     events.clear();
     has_ended_ = step->kind == GologStep::Kind::finished;
@@ -143,11 +148,13 @@ void GologPlanner::run(Mission& mission, Time now) {
     } else if (step->kind == GologStep::Kind::stop) {
       stop(mission, step->action, now);
     } else {
+      --hurry_.actions;
       remember();
       return;
     }
     if (stands_in_) return;
   }
+  hurry_ = {now};
   fail(mission, Error{"the program begins one action after the other and comes to no end"}, now);
 }
 
@@ -245,7 +252,7 @@ void GologPlanner::outcome(Mission& mission, const TaskOrder& order, const Actio
   const auto& visit = mission.scheduler().state().visit;
   const bool is_of_visit = visit && visit->exhibit_id == argument(action);
   // The program takes it for served: should it still be wanted, it is told anew.
-  if (action.name == "explain") requested_.erase(argument(action));
+  if (action.name == "explain") known_.requested.erase(argument(action));
   if (is_of_visit) told_ = {visit->exhibit_id, visit->language};
   if (is_of_visit && (action.name == "explain" || (is_drive(action) && !outcome.is_done))) {
     mission.finish_visit(outcome.is_done, outcome.reason, now);
@@ -269,7 +276,13 @@ void GologPlanner::fail(Mission& mission, const Error& error, Time now) {
   fault_ = error.message;
   stands_in_ = true;
   retry_at_ = now + seconds(params_.retry_s);
-  for (const UnderWay& action : std::vector<UnderWay>{under_way_}) end(action.action, {GologOutcome::Kind::failed});
+  if (program_.is_alive()) {
+    for (const UnderWay& action : std::vector<UnderWay>{under_way_}) end(action.action, {GologOutcome::Kind::failed});
+  } else {  // it begins anew, and knows nothing
+    under_way_.clear();
+    known_ = {};
+    has_ended_ = false;
+  }
   fault_ = error.message;
 }
 
@@ -285,9 +298,9 @@ void GologPlanner::remember() {
     under_way.push_back(
         {{"action", to_json(action.action)}, {"began", action.began.nanoseconds}, {"task", action.task_kind}});
   }
-  memory_ = Json{{"snapshot", *snapshot},    {"requested", requested_},    {"under_way", under_way},
-                 {"lost", told_lost_},       {"blocked", told_blocked_},   {"closing", told_closing_},
-                 {"exhibit", told_.exhibit}, {"language", told_.language}, {"left", have_left_},
+  memory_ = Json{{"snapshot", *snapshot},    {"requested", known_.requested}, {"under_way", under_way},
+                 {"lost", known_.is_lost},   {"blocked", known_.is_blocked},  {"closing", known_.is_closing},
+                 {"exhibit", told_.exhibit}, {"language", told_.language},    {"left", have_left_},
                  {"ended", has_ended_}}
                 .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -314,15 +327,15 @@ bool GologPlanner::restore(const std::string& memory, TaskOrder& task) {
       task = {};
       return true;
     }
-    requested_ = json.at("requested").get<std::set<std::string>>();
+    known_.requested = json.at("requested").get<std::set<std::string>>();
     for (const Json& action : json.at("under_way")) {
       under_way_.push_back({term_from(action.at("action")),
                             {action.at("began").get<std::int64_t>()},
                             action.at("task").get<std::string>()});
     }
-    told_lost_ = json.at("lost").get<bool>();
-    told_blocked_ = json.at("blocked").get<bool>();
-    told_closing_ = json.at("closing").get<bool>();
+    known_.is_lost = json.at("lost").get<bool>();
+    known_.is_blocked = json.at("blocked").get<bool>();
+    known_.is_closing = json.at("closing").get<bool>();
     told_ = {json.value("exhibit", ""), json.value("language", "")};
     have_left_ = json.value("left", false);
     has_ended_ = json.value("ended", false);

@@ -35,11 +35,12 @@ struct GologPlannerParams {
 ///
 /// One task is under way at a time; an action that the executive would have to do beside it fails. A program that is
 /// faulty, takes too many inferences, or has ended while somebody waits is reported, and the plan controller serves
-/// until it is tried again. One that has ended begins again when the museum opens.
+/// until it is tried again, anew where its process has ended. One that has ended begins again when the museum opens.
 class GologPlanner final : public Planner {
  public:
-  GologPlanner(const GologPlannerParams& params, GologProgram program)
-      : params_{params}, program_{std::move(program)} {}
+  /// @param instead_of  why the museum's own program is not carried out; empty: it is
+  GologPlanner(const GologPlannerParams& params, GologProgram program, std::string instead_of = {})
+      : params_{params}, program_{std::move(program)}, instead_of_{std::move(instead_of)} {}
 
   void decide(Mission& mission, Time now) override;
   void outcome(Mission& mission, const TaskOrder& order, const ActionOutcome& outcome, Time now) override;
@@ -47,7 +48,7 @@ class GologPlanner final : public Planner {
   [[nodiscard]] bool serves_points() const override { return false; }
   [[nodiscard]] std::string memory() const override;
   [[nodiscard]] bool restore(const std::string& memory, TaskOrder& task) override;
-  [[nodiscard]] std::string fault() const override { return fault_; }
+  [[nodiscard]] std::string fault() const override { return fault_.empty() ? instead_of_ : fault_; }
 
  private:
   /// An action that has begun and is not over.
@@ -81,15 +82,24 @@ class GologPlanner final : public Planner {
     std::string exhibit{};
     std::string language{};
   };
-  bool have_left_ = false;            ///< the visitors of the last visit, after a farewell: nobody is asked for more
-  Told told_;                         ///< the last visit
-  std::uint64_t asked_revision_ = 0;  ///< of the board, when it was asked what may be visited
-  Time ask_again_{};
-  std::set<std::string> requested_;  ///< exhibits of which the program knows that somebody waits
-  std::optional<double> told_charge_;
-  bool told_lost_ = false;
-  bool told_blocked_ = false;
-  bool told_closing_ = false;
+  bool have_left_ = false;  ///< the visitors of the last visit, after a farewell: nobody is asked for more
+  Told told_;               ///< the last visit
+  /// What the program was told of.
+  struct Known {
+    std::uint64_t asked_revision = 0;  ///< of the board, when it was asked what may be visited
+    Time ask_again{};
+    std::set<std::string> requested{};  ///< exhibits for which somebody waits
+    std::optional<double> charge{};
+    bool is_lost = false;
+    bool is_blocked = false;
+    bool is_closing = false;
+  };
+  Known known_;
+  struct {
+    Time since{};
+    int actions = 0;  ///< that have begun or stopped since then
+  } hurry_;
+  std::string instead_of_;  ///< why the museum's own program is not carried out
   std::string memory_;
   std::string fault_;
 };

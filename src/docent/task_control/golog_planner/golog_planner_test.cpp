@@ -385,5 +385,49 @@ TEST_F(GologPlannerTest, AnActionBesideAVisitGoesOnWhenItsWishIsTakenBack) {
   EXPECT_EQ(task(), "wave");
 }
 
+TEST_F(GologPlannerTest, AProgramThatEndsItsProcessLeavesTheVisitorsToThePlanController) {
+  start_text("proc(main, [?(request(e12)), ?(halt)]).\n");
+  wish("a", RequestKind::exhibit, "e12");
+  EXPECT_EQ(task(), "visit e12");
+  EXPECT_NE(mission->planner_fault().find("ended by the program itself"), std::string::npos)
+      << mission->planner_fault();
+}
+
+TEST_F(GologPlannerTest, AProgramWhoseProcessHasEndedIsToldAllAnew) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto file = folder / ("docent_golog_anew_" + std::to_string(getpid()) + ".pl");
+  const auto poison = folder / ("docent_golog_poison_" + std::to_string(getpid()));
+  ASSERT_TRUE(write_file_atomically(poison, ""));
+  ASSERT_TRUE(write_file_atomically(
+      file,
+      "proc(main, while(true, [?(some(E, due(E))), pi(E, [?(next(E)), ?(is_well), drive(E), explain(E)])])).\n"
+      "is_well :- ( exists_file('" +
+          poison.string() + "') -> halt ; true ).\n"));
+  golog.retry_s = 1.0;
+  start(file);
+  wish("1", RequestKind::exhibit, "e1");
+  ASSERT_EQ(task(), "visit e1") << "the plan controller stands in";
+  std::filesystem::remove(poison);
+  wish("2", RequestKind::exhibit, "e5");
+  report(TaskStatus::done);
+  pass(2.0);
+  EXPECT_EQ(task(), "drive e5") << "the program is back, and knows of a wish that came meanwhile";
+  EXPECT_EQ(mission->planner_fault(), "");
+  std::filesystem::remove(file);
+}
+
+// No single moment has many actions, but none of them takes time.
+TEST_F(GologPlannerTest, AProgramThatGoesToAndFroWithoutEndIsStopped) {
+  start_text("proc(main, [?(some(E, due(E))), while(true, [drive(e1), drive(home)])]).\n");
+  wish("1", RequestKind::exhibit, "e5");
+  for (int i = 0; i < 200 && mission->planner_fault().empty(); ++i) {
+    mission->report(TaskOrder{mission->task()}.id, TaskStatus::done, ReasonWord::way_blocked, time(), false);
+    mission->tick(time());
+  }
+  EXPECT_NE(mission->planner_fault().find("comes to no end"), std::string::npos);
+  pass(0.5);
+  EXPECT_EQ(task(), "visit e5") << "the plan controller stands in";
+}
+
 }  // namespace
 }  // namespace docent::task_control
