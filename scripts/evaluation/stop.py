@@ -14,7 +14,7 @@ CONFIGURATIONS = [(gateways, disk) for gateways in (1, 2) for disk in ("free", "
 TOGETHER = {"keepers": 1, "beside": 4, "others": 8}  # pairs between a press and its release
 SLICE = "web,avoid;gateway 2,robot"
 STILL = 0.005  # [m] that a base that stands may say
-CONFIRMED = 1.0  # [s]
+CONFIRMED = 2.0  # [s]: then it is refused
 DAY = 864.0  # [s]: 24 h at a hundredth
 MOVES = 0.5  # [m] of a robot that nobody has stopped, while two die
 

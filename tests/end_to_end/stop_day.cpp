@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
+constexpr int kHoursOfDay = 24;
 constexpr double kStill = 0.005;  // [m]
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
 
@@ -132,11 +133,11 @@ class Day {
 
 }  // namespace
 
-std::vector<StopHour> run_day(StopRobot& robot, OddMachine& machine, double hour_s, unsigned seed) {
-  constexpr int kHours = 24;
+std::vector<StopHour> run_day(StopRobot& robot, OddMachine& machine, double hour_s, unsigned seed, int from,
+                              int count) {
   Day day{robot, machine, hour_s, seed};
   std::vector<StopHour> hours;
-  for (int hour = 0; hour < kHours; ++hour) {
+  for (int hour = from; hour < std::min(kHoursOfDay, from + count); ++hour) {
     hours.push_back(day.run(hour));
     const StopHour& it = hours.back();
     std::printf("| %2d | %-22s | %-6s | %-34s | %-4s | %.2f | %.3f | %.1f | %s |\n", it.hour, it.clock.c_str(),

@@ -24,7 +24,9 @@ struct StopHour {
 /// 24 hours of a museum, each `hour_s` long: the wall's clock is set ahead by what is left out, back and forth, and
 /// over the end of daylight saving; processes die and hang, the disk fills, and in each hour the stop is pressed and
 /// released.
-[[nodiscard]] std::vector<StopHour> run_day(StopRobot& robot, OddMachine& machine, double hour_s, unsigned seed);
+/// @param from, count  some of its hours
+[[nodiscard]] std::vector<StopHour> run_day(StopRobot& robot, OddMachine& machine, double hour_s, unsigned seed,
+                                            int from, int count);
 
 /// Seconds since 1970 at the beginning of the night in which daylight saving ends, where the day begins.
 inline constexpr std::int64_t kDayBegins = 1'792'879'200;  // 2026-10-25 00:00 in Bonn

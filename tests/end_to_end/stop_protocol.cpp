@@ -23,10 +23,10 @@ namespace {
 struct Options : StopRobotOptions {
   bool is_full = false;
   std::string pairs = "keepers";
-  std::size_t from = 0, count = 1000;
-  std::size_t together = 1;  ///< pairs between a press and its release
-  int controls = 1;          ///< pairs while nobody presses
-  double day_s = 0.0;        ///< of a whole day; 0: pairs
+  std::size_t from = 0, count = 1000;  ///< of the pairs, or of the hours
+  std::size_t together = 1;            ///< pairs between a press and its release
+  int controls = 1;                    ///< pairs while nobody presses
+  double day_s = 0.0;                  ///< of a whole day; 0: pairs
   std::string report;
 };
 
@@ -151,8 +151,9 @@ int run(const Options& options, OddMachine& machine) {
   nlohmann::json report;
   if (is_day) {
     report["hours"] = nlohmann::json::array();
-    for (const StopHour& hour :
-         run_day(robot, machine, options.day_s / 24.0, static_cast<unsigned>(std::atoi(options.seed.c_str()))))
+    const auto seed = static_cast<unsigned>(std::atoi(options.seed.c_str()));
+    for (const StopHour& hour : run_day(robot, machine, options.day_s / 24.0, seed, static_cast<int>(options.from),
+                                        static_cast<int>(options.count)))
       report["hours"].push_back(json_of(hour));
   } else {
     report = run_pairs(options, robot, machine);
@@ -172,7 +173,7 @@ int run(const Options& options, OddMachine& machine) {
       faults += one["fault"] == "" ? 0 : 1;
     }
   }
-  std::printf("%d contacts in %.2f km, %d writes refused\n%d passed, %d failed\n", whole.contacts.all(),
+  std::printf("%d contacts in %.3f km, %d writes refused\n%d passed, %d failed\n", whole.contacts.all(),
               whole.distance_m / 1000.0, machine.refused.load(), number - faults, faults);
   return faults == 0 && number > 0 && whole.contacts.all() == 0 ? 0 : 1;
 }

@@ -134,14 +134,14 @@ TEST_F(TheDesk, LetsEachRankDoWhatTheTableSaysAndNothingMore) {
         path.replace(at, path.find('}') - at + 1, "none-such");
       const ApiReply reply = call(browser, endpoint.method, path, endpoint.has_body ? "{}" : "");
       const bool may = rank >= endpoint.least;
-      EXPECT_EQ(reason(reply) == "not_allowed", !may)
-          << endpoint.name << " by a " << to_text(rank) << ": " << reply.body;
+      EXPECT_EQ(reason(reply) == "not_allowed", !may) << endpoint.name << " by a " << to_text(rank) << reply.body;
       (may ? allowed : refused) += 1;
+      if (!may) continue;
       // Nor another site that has the cookie sent, nor anybody who has only the cookie.
       ApiRequest forged = request(browser, endpoint.method, path, endpoint.has_body ? "{}" : "");
       forged.is_of_ours = false;
       EXPECT_EQ(reason(call(forged)), "other_site") << endpoint.name;
-      if (!endpoint.changes() || rank == Rank::viewer || !may) continue;
+      if (!endpoint.changes() || rank == Rank::viewer) continue;
       forged.is_of_ours = true, forged.csrf = "";
       EXPECT_EQ(reason(call(forged)), "wrong_csrf") << endpoint.name;
       forged.csrf = browsers.at(rank == Rank::visitor ? Rank::moderator : Rank::visitor).csrf;
