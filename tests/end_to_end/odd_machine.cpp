@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -53,6 +54,33 @@ std::int64_t ahead_ns() {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
+timespec plus(timespec time, std::int64_t more_ns) {
+  const std::int64_t all = time.tv_nsec + more_ns % kSecond;
+  time.tv_sec += more_ns / kSecond;
+  time.tv_nsec = all;
+  if (all < 0) time.tv_nsec += kSecond, --time.tv_sec;
+  if (all >= kSecond) time.tv_nsec -= kSecond, ++time.tv_sec;
+  return time;
+}
+
+/// Waits as a kernel does whose clock is set meanwhile: set ahead it wakes early, set back late. @param wait  until a
+/// time of the true clock
+template <class Wait>
+int wait_until(const timespec* until, const Wait& wait) {
+  constexpr std::int64_t kSinceStart = 1'000'000'000;  // [s]: what is less is of the clock since the start
+  constexpr std::int64_t kSlice = kSecond / 5;
+  if (machine() == nullptr || until->tv_sec < kSinceStart) return wait(until);
+  while (true) {
+    timespec now{};
+    ::syscall(SYS_clock_gettime, CLOCK_REALTIME, &now);
+    const timespec shown = plus(now, ahead_ns());
+    const std::int64_t left = (until->tv_sec - shown.tv_sec) * kSecond + until->tv_nsec - shown.tv_nsec;
+    const timespec slice = plus(now, left < kSlice ? left : kSlice);
+    const int done = wait(&slice);
+    if (done != ETIMEDOUT || left <= kSlice) return done;
+  }
+}
+
 }  // namespace
 }  // namespace docent
 
@@ -83,12 +111,7 @@ int clock_gettime(clockid_t which, timespec* time) noexcept {
   static const auto real = docent::next<int (*)(clockid_t, timespec*)>("clock_gettime");
   const int done = real(which, time);
   if (done != 0 || (which != CLOCK_REALTIME && which != CLOCK_REALTIME_COARSE)) return done;
-  const std::int64_t ahead = docent::ahead_ns();
-  const std::int64_t all = time->tv_nsec + ahead % docent::kSecond;
-  time->tv_sec += ahead / docent::kSecond;
-  time->tv_nsec = all;
-  if (all < 0) time->tv_nsec += docent::kSecond, --time->tv_sec;
-  if (all >= docent::kSecond) time->tv_nsec -= docent::kSecond, ++time->tv_sec;
+  *time = docent::plus(*time, docent::ahead_ns());
   return done;
 }
 int gettimeofday(timeval* time, void* /*zone*/) noexcept {
@@ -103,5 +126,14 @@ time_t time(time_t* place) noexcept {
   clock_gettime(CLOCK_REALTIME, &now);
   if (place != nullptr) *place = now.tv_sec;
   return now.tv_sec;
+}
+int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex, const timespec* until) {
+  using Call = int (*)(pthread_cond_t*, pthread_mutex_t*, const timespec*);
+  static const auto real = reinterpret_cast<Call>(::dlvsym(RTLD_NEXT, "pthread_cond_timedwait", "GLIBC_2.3.2"));
+  return docent::wait_until(until, [&](const timespec* slice) { return real(condition, mutex, slice); });
+}
+int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* until) noexcept {
+  static const auto real = docent::next<int (*)(pthread_mutex_t*, const timespec*)>("pthread_mutex_timedlock");
+  return docent::wait_until(until, [&](const timespec* slice) { return real(mutex, slice); });
 }
 }
