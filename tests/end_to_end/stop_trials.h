@@ -48,6 +48,7 @@ class StopTrials {
   /// Adds what it has moved since the last look: none is left out between the press and the release.
   void measure(StopTrial& trial);
   void release(StopTrial& trial);
+  [[nodiscard]] bool may_be_away(const std::string& process) const;
 
   StopRobot& robot_;
   OddMachine& machine_;
