@@ -114,7 +114,7 @@ std::map<std::string, pid_t> StopRobot::pids() const {
   std::map<std::string, pid_t> found;
   for (const pid_t pid : up_->children()) {
     const std::string module = module_of(pid);
-    if (!module.empty() && module != "simulator" && is_running(pid)) found[module] = pid;
+    if (!module.empty() && module != "sim" && is_running(pid)) found[module] = pid;
   }
   if (second_ && is_running(second_->pid())) found[kSecondGateway] = second_->pid();
   return found;
