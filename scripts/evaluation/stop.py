@@ -41,7 +41,7 @@ def judge_pairs(verdict, name, report, full):
     trials = report["trials"]
     exposed = [trial for trial in trials if trial["would_drive"]]
     verdict.want(f"{name}: 0 m while two die, twice", f"{max(trial['way_m'] for trial in trials):.3f} m in the worst of {len(trials)}",
-                 bool(trials) and all(trial["way_m"] <= STILL for trial in trials))
+                 bool(trials) and all(abs(trial["way_m"]) <= STILL for trial in trials))
     verdict.want(f"{name}: it had somewhere to go (60 %)", f"{len(exposed)} of {len(trials)}", len(exposed) >= 0.6 * len(trials))
     pressed = [trial["acknowledged_s"] for trial in trials]
     verdict.want(f"{name}: acknowledged within {CONFIRMED:g} s", f"{max(pressed):.2f} s in the worst of {len(pressed)}", max(pressed) <= CONFIRMED)
@@ -71,7 +71,7 @@ def judge_day(verdict, report):
     faults = [f"{hour['hour']}: {hour['fault']}" for hour in hours if hour["fault"]]
     verdict.want("a day: hours", f"{len(hours)} of 24, {sum(hour['driven_m'] > 1 for hour in hours)} of them driven", len(hours) == 24)
     verdict.want("a day: driven (100 m)", f"{sum(hour['driven_m'] for hour in hours):.0f} m", sum(hour["driven_m"] for hour in hours) >= 100)
-    verdict.want("a day: 0 m while it was stopped", f"{max(hour['way_m'] for hour in hours):.3f} m in the worst", all(hour["way_m"] <= STILL for hour in hours))
+    verdict.want("a day: 0 m while it was stopped", f"{max(hour['way_m'] for hour in hours):.3f} m in the worst", all(abs(hour["way_m"]) <= STILL for hour in hours))
     verdict.want("a day: acknowledged, everywhere, by the right hours, all back", "; ".join(faults) or "24 of 24", not faults)
     verdict.want("a day: full disks, clocks set back", f"{sum(hour['full'] for hour in hours)}, {sum(bool(hour['clock']) for hour in hours)}",
                  any(hour["full"] for hour in hours) and any(hour["clock"] for hour in hours))

@@ -119,7 +119,7 @@ class Day {
     if (is_disk_emptied_first) machine_.is_full = 0;
     if (!robot_.is_everywhere(true, 10s)) blame("not all say that it is stopped");
     hour_.way_m = robot_.distance() - seen_;
-    if (hour_.way_m > kStill) blame("it moved");
+    if (std::abs(hour_.way_m) > kStill) blame("it moved");
     const auto answer = robot_.at((gateway_ + 1) % robot_.gateways()).release();
     if (!answer.is_acknowledged) blame("the release was not acknowledged: " + answer.why_not);
     if (!robot_.is_everywhere(false, 5s)) blame("not released everywhere");

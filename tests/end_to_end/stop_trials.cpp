@@ -82,7 +82,7 @@ void StopTrials::kill_twice(StopTrial& trial, Seconds watched) {
 void StopTrials::release(StopTrial& trial) {
   if (!robot_.is_everywhere(true, 10s)) blame(trial, "not all say that it is stopped");
   measure(trial);
-  if (trial.way_m > kMoved || trial.turned > kTurned) blame(trial, "it moved");
+  if (std::abs(trial.way_m) > kMoved || trial.turned > kTurned) blame(trial, "it moved");
   next_gateway_ = (next_gateway_ + 1) % robot_.gateways();  // whoever pressed is not who releases
   const auto begun = Clock::now();
   const auto answer = robot_.at(next_gateway_).release();
@@ -124,7 +124,7 @@ std::vector<StopTrial> StopTrials::run_together(const std::vector<Pair>& pairs) 
     const bool is_last = &pair == &pairs.back();
     const bool is_to_be_released = is_stopped || !trial.fault.starts_with(kNeverDrove);
     if (is_to_be_released && is_last) release(trial);
-    if (is_stopped && !is_last && (trial.way_m > kMoved || trial.turned > kTurned)) blame(trial, "it moved");
+    if (is_stopped && !is_last && (std::abs(trial.way_m) > kMoved || trial.turned > kTurned)) blame(trial, "it moved");
     trials.push_back(std::move(trial));
   }
   return trials;
