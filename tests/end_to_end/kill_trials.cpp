@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <set>
 #include <stop_token>
 #include <thread>
 
 #include "docent/geometry/polygon.h"
+#include "quick_museum.h"
 
 namespace docent {
 namespace {
@@ -47,28 +47,16 @@ KillTrials::KillTrials(KillTrialOptions options, museum::Museum museum)
     : options_{std::move(options)},
       museum_{std::move(museum)},
       watch_{options_.domain},
-      up_{{"up", "--sim", "--museum", with_short_texts(), "--state", (state_.path() / "state").string(), "--domain",
-           std::to_string(options_.domain), "--port", options_.port, "--crowd", options_.crowd, "--seed", options_.seed,
-           "--record", (state_.path() / "kill.mcap").string(), "--requests-per-hour", "0", "--start=" + start_pose()}} {
-}
+      up_{{"up", "--sim", "--museum", with_short_texts(options_.museum, state_.path() / "museum"), "--state",
+           (state_.path() / "state").string(), "--domain", std::to_string(options_.domain), "--port", options_.port,
+           "--crowd", options_.crowd, "--seed", options_.seed, "--record", (state_.path() / "kill.mcap").string(),
+           "--requests-per-hour", "0", "--start=" + start_pose()}} {}
 
 bool KillTrials::begin() {
   const bool is_ready =
       eventually([&] { return watch_.look().localized || !is_running(up_.pid()); }, 180s) && is_running(up_.pid());
   if (!is_ready) std::printf("never localized:\n%s\n", up_.output().c_str());
   return is_ready;
-}
-
-std::string KillTrials::with_short_texts() const {
-  const auto copy = state_.path() / "museum";
-  std::filesystem::copy(options_.museum, copy, std::filesystem::copy_options::recursive);
-  for (const auto& entry : std::filesystem::directory_iterator{copy / "content"}) {
-    if (entry.path().extension() == ".md") {
-      std::ofstream{entry.path()}
-          << "Here stands something that is worth a look. Many people have worked on it for years.\n";
-    }
-  }
-  return copy;
 }
 
 std::string KillTrials::start_pose() const {

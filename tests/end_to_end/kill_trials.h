@@ -53,8 +53,6 @@ class KillTrials {
   [[nodiscard]] bool has(const std::string& module) { return watch_.look().health.contains(module); }
 
  private:
-  /// The same museum with little to say: most of the time shall be spent driving.
-  [[nodiscard]] std::string with_short_texts() const;
   [[nodiscard]] std::string start_pose() const;
   void keep_busy();
   [[nodiscard]] bool is_in(const std::string& situation, const RobotWatch::Snapshot& now) const;

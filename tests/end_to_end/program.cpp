@@ -19,8 +19,7 @@ namespace docent {
 namespace {
 
 std::string program_for(const std::vector<std::string>& arguments) {
-  const char* other = std::getenv("DOCENT_BINARY");  // as scripts/evaluate knows it
-  const std::filesystem::path docent = other != nullptr ? other : DOCENT_PROGRAM;
+  const std::filesystem::path docent = docent_program();
   const auto& names = apps::kLaboratoryCommands;
   const bool is_laboratory =
       !arguments.empty() && std::find(names.begin(), names.end(), arguments.front()) != names.end();
@@ -28,6 +27,11 @@ std::string program_for(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
+
+std::filesystem::path docent_program() {
+  const char* other = std::getenv("DOCENT_BINARY");  // as scripts/evaluate knows it
+  return other != nullptr ? other : DOCENT_PROGRAM;
+}
 
 Program::Program(const std::vector<std::string>& arguments) {
   std::array<int, 2> ends{};

@@ -24,6 +24,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// $DOCENT_BINARY, else the one that was built.
+[[nodiscard]] std::filesystem::path docent_program();
+
 /// A started `docent`, or `docent-lab` where the first argument is one of its commands, with all that it prints and a
 /// cache of its own. Ended (with its children) at the latest with this object.
 class Program {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "docent/evaluation/deployment_evaluator.h"
 #include "docent/transport/dds_bus.h"
@@ -34,6 +35,7 @@ class RobotWatch {
     docent_msgs::RequestBoard board;
     docent_msgs::AvoidState avoid;
     std::map<std::string, Clock::time_point> faults;  ///< by the simulator's sensor: when it last broke
+    std::map<std::string, std::pair<docent_msgs::Stop, Clock::time_point>> stops;  ///< by keeper: its last word
     bool localized = false;
     Clock::time_point localized_at;  ///< last belief that was sure
   };

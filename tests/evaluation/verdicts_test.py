@@ -11,7 +11,7 @@ from types import SimpleNamespace
 ROOT = Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
-from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, localization, reports, safety, scenarios, tours  # noqa: E402
+from evaluation import attract, benchmarks, coastal, crippled, exceptions, faults, ledger, localization, reports, safety, scenarios, stop, tours  # noqa: E402
 from evaluation.programs import laboratory, program_for, programs_of  # noqa: E402
 from evaluation.tables import Verdict  # noqa: E402
 
@@ -418,6 +418,32 @@ class Kidnaps(unittest.TestCase):
         run = self.rows(0.0, 0.2, 9.0, 9.2)
         self.assertEqual(localization.since_carried_off(run), run[2:])
         self.assertEqual(localization.since_carried_off(run[:2]), [])
+
+
+class StopButton(unittest.TestCase):
+    TRIAL = {"first": "web", "second": "avoid", "way_m": 0.0, "would_drive": True, "acknowledged_s": 0.3, "fault": ""}
+    HOUR = {"hour": 1, "clock": "back", "full": True, "way_m": 0.0, "driven_m": 6.0, "fault": ""}
+
+    def judged(self, full=True, control=2.0, refused=300, contacts=0, **other):
+        verdict = Verdict()
+        trials = [{**self.TRIAL, **other}] * 3
+        stop.judge_pairs(verdict, "pairs", {"trials": trials, "controls": [{"way_m": control}], "contacts": contacts, "distance_m": 30.0,
+                                            "refused_writes": refused}, full)
+        return verdict.good
+
+    def test_a_stop_that_holds_is_good_and_one_that_is_lost_or_idle_is_not(self):
+        self.assertTrue(self.judged())
+        self.assertTrue(self.judged(full=False, refused=0))
+        for wrong in ({"way_m": 0.1}, {"would_drive": False}, {"acknowledged_s": 3.0}, {"fault": "not released everywhere"}, {"control": 0.0}, {"refused": 0},
+                      {"contacts": 1}):
+            self.assertFalse(self.judged(**wrong), wrong)
+
+    def test_a_day_has_all_its_hours_and_what_is_hard_in_them(self):
+        for hours, good in ((24 * [self.HOUR], True), (23 * [self.HOUR], False), (24 * [{**self.HOUR, "driven_m": 0.0}], False),
+                            (24 * [{**self.HOUR, "full": False}], False), (24 * [{**self.HOUR, "fault": "not released everywhere"}], False)):
+            verdict = Verdict()
+            stop.judge_day(verdict, {"hours": hours, "contacts": 0, "distance_m": 144.0})
+            self.assertEqual(verdict.good, good)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,9 @@ namespace docent::modules {
 namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds{100};
+/// Many speak there at once: a word is not to be overwritten by another keeper's before it is read, or the stop waits
+/// for the next repetition.
+constexpr Topic<docent_msgs::Stop> kWords{topics::kStop.name, topics::kStop.qos, 16};
 
 StopRegister::Word word_of(const docent_msgs::Stop& stop) {
   return {{stop.number, stop.is_stopped, stop.by}, stop.is_sure};
@@ -43,8 +46,8 @@ StopKeeper::StopKeeper(const ModuleContext& context, std::string name, std::func
       register_{std::move(name), read_kept(file_, read_fault_), bus_.now()},
       kept_{register_.state()},
       changed_{std::move(changed)},
-      says_{bus_.publisher(topics::kStop)} {
-  bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const docent_msgs::Stop& stop) { hear(stop); });
+      says_{bus_.publisher(kWords)} {
+  bus_.subscribe<docent_msgs::Stop>(kWords, [this](const docent_msgs::Stop& stop) { hear(stop); });
   bus_.every(kTick, [this] { tell(); });
   tell();
 }

@@ -75,7 +75,7 @@ void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
   const Endpoint& endpoint = **found;
   if (request.is_far && (endpoint.is_dear || endpoint.least > Rank::visitor))
     return answer(refusal({ApiFault::not_allowed, "nearer to the robot"}));
-  const bool is_staff = logins_.find(request.token, clock_()).has_value();
+  const bool is_staff = !request.is_far && logins_.find(request.token, clock_()).has_value();
   if (!is_within_rate(request, endpoint, is_staff)) return answer(refusal({ApiFault::too_fast, ""}));
   int rank = 0;
   if (endpoint.is_dear) {
@@ -162,9 +162,11 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
     if (!is_known || value.size() > 64) return refuse(ApiFault::not_understood, "the query");
   }
   call.query = std::move(*query);
-  if (endpoint.changes() && !request.is_of_ours) return refuse(ApiFault::other_site);
+  if (!request.is_of_ours) return refuse(ApiFault::other_site);
   if (!request.token.empty()) {
     call.login = login_of(call.services, request.token, call.now);
+    // A login with an account is for nearer: on the far line it is none, and its token is not told.
+    if (request.is_far && call.login && call.login->person.is_at_least(Rank::moderator)) call.login.reset();
     if (call.login) call.person = call.login->person;
   }
   if (!call.person.is_at_least(endpoint.least)) return refuse(ApiFault::not_allowed);

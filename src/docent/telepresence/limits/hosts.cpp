@@ -10,14 +10,18 @@
 namespace docent::telepresence {
 namespace {
 
-std::string without_port(std::string_view host) {
-  const auto bracket = host.find(']');
-  if (host.starts_with('[') && bracket != std::string_view::npos) return std::string{host.substr(1, bracket - 1)};
-  return std::string{host.substr(0, host.find(':'))};
+/// Empty or a colon and digits: what may stand behind a name.
+bool is_port(std::string_view text) {
+  return text.empty() || (text.front() == ':' && text.find_first_not_of("0123456789", 1) == std::string_view::npos);
 }
 
+/// In small letters, without its port and the dot at its end; empty: it is none.
 std::string name_of(std::string_view host) {
-  std::string name = without_port(host);
+  const auto bracket = host.find(']');
+  const bool is_bracketed = host.starts_with('[') && bracket != std::string_view::npos;
+  const auto end = is_bracketed ? bracket + 1 : std::min(host.find(':'), host.size());
+  if (!is_port(host.substr(end))) return {};
+  std::string name{is_bracketed ? host.substr(1, bracket - 1) : host.substr(0, end)};
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   if (name.ends_with('.')) name.pop_back();
   return name;

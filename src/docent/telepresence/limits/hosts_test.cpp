@@ -25,7 +25,8 @@ TEST(HostsTest, NamesOfOthersAreNot) {
   for (const std::string host :
        {"evil.example", "evil.example:8080", "museum.example", "robot.museum.example.evil.example",
         "127.0.0.1.evil.example", "localhost.evil.example", "evil.example#localhost", "1.2.3", "0x7f.1", "[::1",
-        "[evil.example]", ":8080", " localhost"})
+        "[evil.example]", ":8080", " localhost", "localhost:80@evil.example", "[::1]evil.example:80", "127.0.0.1:x",
+        "robot.museum.example:80.evil.example"})
     EXPECT_FALSE(hosts.is_ours(host)) << host;
 }
 

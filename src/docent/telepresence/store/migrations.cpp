@@ -7,8 +7,11 @@ namespace docent::telepresence {
 Result<void> migrate(Database& database, const std::string& part, std::span<const Migration> migrations) {
   // Whoever comes second waits here: the row of the part is written first, and so locked, in each transaction.
   auto made = database.run_script("CREATE TABLE IF NOT EXISTS parts (name TEXT PRIMARY KEY, version BIGINT NOT NULL)");
-  const bool is_there = made || database.run("SELECT version FROM parts WHERE name = $1", {part});
-  if (!is_there) return made;  // else another program made it at the same moment
+  const auto found = database.run("SELECT version FROM parts WHERE name = $1", {part});
+  if (!made && !found) return made;  // else another program made it at the same moment
+  // What is as it should be is not written: the disk may be full.
+  if (found && !found->rows.empty() && found->rows.at(0).number(0) == static_cast<std::int64_t>(migrations.size()))
+    return {};
   for (std::size_t step = 0; step < migrations.size(); ++step) {
     auto done = database.in_transaction([&]() -> Result<void> {
       auto begun = database.run(

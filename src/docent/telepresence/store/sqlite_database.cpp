@@ -4,8 +4,6 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <sqlite3.h>
-#include <sys/resource.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,7 +14,9 @@
 #include <system_error>
 #include <utility>
 
+#include "docent/base/files.h"
 #include "docent/telepresence/store/open_files.h"
+#include "docent/telepresence/store/read_only_copy.h"
 #include "docent/telepresence/store/salvage/private_files.h"
 #include "docent/telepresence/store/salvage/recovery.h"
 #include "docent/telepresence/store/salvage/table_copy.h"
@@ -77,14 +77,6 @@ std::vector<Value> values_of(SQLite::Statement& query) {
   return values;
 }
 
-/// Where SQLite says no more than that it cannot write: the disk has no room, or files of this process none.
-bool may_not_grow(const fs::path& file) {
-  struct statvfs disk {};
-  rlimit most{};
-  return (::statvfs(file.c_str(), &disk) == 0 && disk.f_bavail == 0) ||
-         (::getrlimit(RLIMIT_FSIZE, &most) == 0 && most.rlim_cur != RLIM_INFINITY);
-}
-
 class SqliteDatabase final : public Database {
  public:
   explicit SqliteDatabase(const std::string& path) : files_{path}, is_in_memory_{path == ":memory:"} {}
@@ -128,7 +120,7 @@ class SqliteDatabase final : public Database {
     return seconds_now() - said_at_ < kNoticeLasts ? said_ : "";
   }
   [[nodiscard]] Result<void> look() override {
-    if (is_in_memory_ || !connection_) return make_ready();
+    if (is_in_memory_ || is_copy_ || !connection_) return make_ready();
     if (fault_.empty()) fault_ = open_files_->look(files_);
     if (fault_.empty() && !begins_well(connection_->getHandle())) fault_ = "the file does not begin as a database";
     return make_ready();
@@ -168,6 +160,7 @@ class SqliteDatabase final : public Database {
       if (auto mended = mend(files_.read(), why); !mended) return mended;
     }
     auto opened = connect();
+    if (is_copy_) return opened;  // nothing can be mended now
     if (opened) why = damage();
     if (!opened && fault_.empty()) return opened;
     if (!opened) why = "damaged";
@@ -223,10 +216,10 @@ class SqliteDatabase final : public Database {
       connection_->exec("SELECT count(*) FROM sqlite_schema");
     } catch (const SQLite::Exception& why) {
       auto said = failed(why);
-      disconnect(false);
-      return said;
+      return connect_to_copy(why) ? Result<void>{} : said;
     }
     fault_.clear();
+    is_copy_ = false;
     if (is_in_memory_) return {};
     files_.make_private();
     sqlite3_update_hook(connection_->getHandle(), &SqliteDatabase::see_change, this);
@@ -235,6 +228,32 @@ class SqliteDatabase final : public Database {
     if (open_files_) return {};
     disconnect(false);
     return fail(files_.file().string() + ": its files are gone");
+  }
+  /// On a disk that takes nothing: what is there can be read.
+  bool connect_to_copy(const SQLite::Exception& why) {
+    if (is_in_memory_ || !connection_ || !is_of_full_disk(why, files_.file())) return disconnect(false), false;
+    SqliteFiles::Bytes bytes = bytes_of(connection_->getHandle());
+    bytes.wal = read_file(files_.wal()).value_or("");  // which nobody locks
+    auto copy = read_only_copy(bytes);
+    disconnect(false);
+    if (!copy) return false;
+    connection_ = std::move(*copy);
+    is_copy_ = true;
+    tried_at_ = seconds_now();
+    fault_.clear();
+    return true;
+  }
+  /// Perhaps the disk takes something again.
+  void leave_copy() {
+    const std::int64_t now = seconds_now();
+    if (now >= tried_at_ && now - tried_at_ < kMendingPeriod) return;
+    const Held held{*lock_, Part::files, Kind::alone};
+    disconnect(false);
+    (void)connect();
+    if (is_copy_ || !connection_) return;
+    StoreLock::Note note = lock_->note();
+    note.is_open = true;
+    (void)lock_->write(note);
   }
   /// @param checkpoints  what is in the WAL goes into the file, if nobody else has it open
   void disconnect(bool checkpoints) {
@@ -260,6 +279,8 @@ class SqliteDatabase final : public Database {
   /// Before anything is done: the files are those that were opened, or are mended.
   Result<void> make_ready() {
     if (is_in_memory_ || (connection_ && is_in_transaction())) return {};
+    if (is_copy_) leave_copy();
+    if (is_copy_ && connection_) return {};
     if (connection_ && fault_.empty()) {
       fault_ = open_files_->look(files_);
       if (fault_.empty()) return {};
@@ -360,7 +381,7 @@ class SqliteDatabase final : public Database {
   template <typename Work>
   Result<void> commit(const Work& work) {
     try {
-      if (is_in_memory_) {
+      if (is_in_memory_ || is_copy_) {
         work();
         return {};
       }
@@ -394,13 +415,13 @@ class SqliteDatabase final : public Database {
     is_gone_ = code == SQLITE_BUSY;
     const bool is_short = why.getExtendedErrorCode() == SQLITE_IOERR_SHORT_READ;
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB || is_short) fault_ = "damaged";
-    const bool is_full =
-        code == SQLITE_FULL || (why.getExtendedErrorCode() == SQLITE_IOERR_WRITE && may_not_grow(files_.file()));
+    const bool is_full = is_of_full_disk(why, files_.file()) || (is_copy_ && code == SQLITE_READONLY);
     return fail(files_.file().string() + ": " + (is_full ? kDiskFull : why.what()));
   }
 
   SqliteFiles files_;
   const bool is_in_memory_;
+  bool is_copy_ = false;  ///< what is connected is a copy in memory, for the disk is full
   std::optional<StoreLock> lock_;
   std::unique_ptr<SQLite::Database> connection_;
   std::optional<OpenFiles> open_files_;

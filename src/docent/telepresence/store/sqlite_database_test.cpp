@@ -204,5 +204,30 @@ TEST_F(TheFilesOfAStore, SayThatTheDiskIsFullAndGoOnWhenThereIsRoom) {
   EXPECT_TRUE(put(1));
 }
 
+TEST_F(TheFilesOfAStore, CanBeReadByAProgramThatStartsOnAFullDisk) {
+  ASSERT_TRUE(put(1000));
+  // As a program leaves it that is killed: what was stored last is in the WAL alone.
+  fs::create_directory(base_ / "killed");
+  for (const char* end : {"", "-wal"})
+    fs::copy(file_.string() + end, base_ / "killed" / ("web.sqlite" + std::string{end}));
+  database_.reset();
+  file_ = base_ / "killed" / "web.sqlite";
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  rlimit none = before;
+  none.rlim_cur = 100;
+  ::setrlimit(RLIMIT_FSIZE, &none);
+  open();
+  EXPECT_EQ(hash(), "the hash of ada");
+  EXPECT_EQ(count(), 301);
+  const Result<void> stored = put(1001);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  ASSERT_FALSE(stored);
+  EXPECT_NE(stored.error().message.find("the disk is full"), std::string::npos) << stored.error().message;
+  for (int i = 0; i < 100 && !put(1002); ++i) ::usleep(100'000);
+  EXPECT_EQ(count(), 302) << "when there is room it is stored again";
+}
+
 }  // namespace
 }  // namespace docent::telepresence
