@@ -63,7 +63,8 @@ struct ApiServices {
   std::shared_ptr<const SetupOffice> setup;    ///< null: no museum is set up here
   ApiParams params;
   [[nodiscard]] static Result<ApiServices> open(const std::string& database, const ApiParams& params,
-                                                const ForumParams& forum, const PasswordCost& cost);
+                                                const ForumParams& forum, const PasswordCost& cost,
+                                                Database::Try when = Database::Try::now);
 };
 
 /// A call, whose caller may make it.
@@ -91,6 +92,9 @@ using ApiAnswer = tl::expected<T, ApiRefusal>;
 }
 [[nodiscard]] int status_of(ApiFault reason);
 
+/// What one address may do little of, however many people come from it.
+enum class Scarce { no, posts, reports };
+
 struct Endpoint {
   const char* method;
   const char* path;  ///< behind /api/v1, with {names}
@@ -99,6 +103,7 @@ struct Endpoint {
   const char* summary;
   std::vector<const char*> query;  ///< names that it understands
   bool is_dear = false;            ///< hashes a password
+  Scarce scarce = Scarce::no;
   bool has_body = false;
   std::function<ApiAnswer<nlohmann::json>(ApiCall&, const nlohmann::json& body)> handle;
   std::function<nlohmann::json(Schemas&)> request, reply;

@@ -174,5 +174,25 @@ TEST_F(StoreQueueTest, WithoutAThreadItIsDoneAtOnce) {
   EXPECT_TRUE(is_told);
 }
 
+TEST_F(StoreQueueTest, StrangersLeavePlacesForTheOthers) {
+  make({.most_waiting = 3, .kept = 2, .most_together = 1});
+  hold_up();
+  int refused = 0;
+  const auto put_of = [&](StoreQueue::Of whom) {
+    bool is_refused = false;
+    queue_->put([] { return Result<void>{}; }, [&](const Result<void>& stored) { is_refused = !stored; }, now_, whom);
+    refused += is_refused;
+    return !is_refused;
+  };
+  while (put_of(StoreQueue::Of::strangers)) {
+  }
+  EXPECT_TRUE(put_of(StoreQueue::Of::ours));
+  EXPECT_TRUE(put_of(StoreQueue::Of::ours));
+  EXPECT_FALSE(put_of(StoreQueue::Of::ours)) << "and they are bounded, too";
+  EXPECT_EQ(refused, 2);
+  let_go();
+  queue_->finish();
+}
+
 }  // namespace
 }  // namespace docent::telepresence
