@@ -249,7 +249,9 @@ class Stage:
         self.far_port = free_port()
         self.far = Process(self, "far", [self.docent, "gateway", "--from", f"127.0.0.1:{self.door}", "--key", self.state / "uplink.key", "--port",
                                          self.far_port], limited=True)
-        until("the far gateway", lambda: self.is_up(self.far_port), 30)
+        until("the far gateway", lambda: self.far.process.poll() is not None or self.is_up(self.far_port), 30)
+        if self.far.process.poll() is not None:
+            raise RuntimeError("docent gateway ended: " + self.far.output()[-500:])
 
     def crowd(self, port, sockets, addresses, posts=(), seed=1):
         known = self.museum()

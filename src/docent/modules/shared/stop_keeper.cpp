@@ -12,6 +12,10 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds{100};
 
+/// All keepers speak on one topic, and answer one another within a millisecond: a reader that keeps the newest word
+/// alone, as that of any other state does, would lose what one said when the next one speaks.
+constexpr Topic<docent_msgs::Stop> kWords{topics::kStop.name, topics::kStop.qos, 32};
+
 StopRegister::Word word_of(const docent_msgs::Stop& stop) {
   return {{stop.number, stop.is_stopped, stop.by}, stop.is_sure};
 }
@@ -44,7 +48,7 @@ StopKeeper::StopKeeper(const ModuleContext& context, std::string name, std::func
       kept_{register_.state()},
       changed_{std::move(changed)},
       says_{bus_.publisher(topics::kStop)} {
-  bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const docent_msgs::Stop& stop) { hear(stop); });
+  bus_.subscribe<docent_msgs::Stop>(kWords, [this](const docent_msgs::Stop& stop) { hear(stop); });
   bus_.every(kTick, [this] { tell(); });
   tell();
 }

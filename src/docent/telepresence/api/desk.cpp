@@ -21,6 +21,23 @@ std::string name_in(const std::string& body) {
   return has_name ? parsed["name"].get<std::string>().substr(0, 64) : std::string{};
 }
 
+constexpr double kReadsAtOnce = 10.0;   // [s] worth of them
+constexpr double kWritesAtOnce = 20.0;  // [s] likewise
+
+CallRates rates_of(const ApiParams& params, const ForumParams& forum) {
+  const auto calls = [](double per_second, double at_once) {
+    return Rate{per_second, std::max(1.0, at_once * per_second)};
+  };
+  const auto in_a_while = [&](double count) { return Rate{count / forum.while_s, count}; };
+  return {calls(params.reads_per_second, kReadsAtOnce), calls(params.writes_per_second, kWritesAtOnce),
+          in_a_while(forum.posts_of_address), in_a_while(forum.reports_of_address)};
+}
+
+CountedCall counted(const ApiRequest& request, const Endpoint& endpoint, bool is_staff) {
+  return {is_staff ? "login " + request.token : network_of(request.address), is_staff, request.is_far,
+          endpoint.changes(), endpoint.scarce};
+}
+
 }  // namespace
 
 Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params,
@@ -30,7 +47,7 @@ Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const Ap
       store_{std::move(store)},
       staff_{std::move(staff)},
       passwords_{std::move(passwords)},
-      limits_{params, forum},
+      limits_{rates_of(params, forum)},
       door_{{.of_address = {params.logins_per_minute / 60.0, params.logins_per_minute},
              .of_name = {params.logins_per_minute / 60.0, params.logins_per_minute}}},
       store_worker_{static_cast<std::size_t>(params.calls_waiting)},
@@ -80,8 +97,9 @@ void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
   if (request.is_far && (endpoint.is_dear || endpoint.least > Rank::visitor))
     return answer(refusal({ApiFault::not_allowed, "nearer to the robot"}));
   const bool is_staff = logins_.find(request.token, clock_()).has_value();
-  if (const auto why_not = limits_.why_not(request, endpoint, is_staff, clock_()))
-    return answer(refusal({*why_not, ""}));
+  const CallLimits::Pace pace = limits_.take(counted(request, endpoint, is_staff), clock_());
+  if (pace == CallLimits::Pace::too_fast) return answer(refusal({ApiFault::too_fast, ""}));
+  if (pace == CallLimits::Pace::too_often) return answer(refusal({ApiFault::too_often, ""}));
   int rank = 0;
   if (endpoint.is_dear) {
     const std::string name = name_in(request.body);
@@ -199,7 +217,8 @@ void Desk::admit(std::string token, std::function<void(Admitted)> answer) {
     const bool is_operator = login && login->person.is_at_least(Rank::operator_);
     return is_operator ? std::optional{Admission{login->person.name, hash_token(token)}} : std::nullopt;
   };
-  // Whoever is known waits for no database.
+  // Whoever is known waits for no database, and whoever has nothing to show neither.
+  if (token.empty()) return answer(std::optional<Admission>{});
   if (const auto known = logins_.find(token, clock_())) return answer(admission(known));
   const auto tell = std::make_shared<std::function<void(Admitted)>>(std::move(answer));
   const bool is_taken = store_worker_.post([this, token, admission, tell] {

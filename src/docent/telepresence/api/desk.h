@@ -7,7 +7,6 @@
 
 #include "docent/telepresence/accounts/login_door.h"
 #include "docent/telepresence/accounts/logins.h"
-#include "docent/telepresence/api/call_limits.h"
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/api/exchange/exchange.h"
 #include "docent/telepresence/api/worker.h"

@@ -19,6 +19,7 @@
 #include "docent/telepresence/api/schemas.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"
+#include "docent/telepresence/limits/call_limits.h"
 #include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 
@@ -91,9 +92,6 @@ using ApiAnswer = tl::expected<T, ApiRefusal>;
   return tl::unexpected<ApiRefusal>(ApiRefusal{reason, std::move(about)});
 }
 [[nodiscard]] int status_of(ApiFault reason);
-
-/// What one address may do little of, however many people come from it.
-enum class Scarce { no, posts, reports };
 
 struct Endpoint {
   const char* method;
