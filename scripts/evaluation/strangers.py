@@ -377,10 +377,12 @@ def gone(stage, verdict):
     finally:
         stage.postgres.hang(False)
         stage.cable.say("mend")
-    mended = time.monotonic()
-    until("the gateway has its database", lambda: stage.health().get("reason") == "", 20)
+    mended, reader = time.monotonic(), Caller(stage.port, VISITOR.format(2))
+    until("the gateway has its database", lambda: reader.call("GET", "/forum")[0] == 200, 20, 0.3)
     well = time.monotonic() - mended
     status, _, seconds = Caller(stage.port, OPERATOR).call("POST", "/login", {"name": "ada", "password": PASSWORD})
+    until("health is well again", lambda: not stage.health().get("reason"), 30, 0.5)
+    verdict.note("begun without a database: health is well again", f"{time.monotonic() - mended:.1f} s after the database is there")
     verdict.want(f"begun without a database: it is there within {BEGINS:g} s", f"{back:.2f} s", back <= BEGINS)
     verdict.want("begun without a database: health says the reason", f"{said.get('reason')}", True)
     verdict.want("begun without a database: the stop of the hall's screen is confirmed", f"{answer and answer[0] - pressed:.3f} s" if answer else "never",

@@ -11,6 +11,12 @@ namespace docent::telepresence {
 namespace {
 
 constexpr Duration kForTheBoard = std::chrono::seconds{5};
+constexpr std::size_t kToldTogether = 24;  // a late reader of requests keeps 32 (transport's commands)
+
+bool is_of_the_house(const docent_msgs::Request& request) {
+  const auto source = parse<RequestSource>(request.source);
+  return source == RequestSource::kiosk || source == RequestSource::staff;
+}
 
 bool is_cancellation(const docent_msgs::Request& request) {
   return parse<RequestKind>(request.kind) == RequestKind::cancel;
@@ -142,6 +148,7 @@ void WishDesk::resend(Time now) {
           fault_ = read.error().message;
           return;
         }
+        fault_.clear();
         // What another gateway took is told at once; of what was delivered meanwhile the table did not know yet.
         for (const auto& request : *found) {
           const auto is_it = [&](const auto& known) { return known.id == request.id; };
@@ -167,7 +174,12 @@ void WishDesk::tell_all(Time now) {
     if (is_cancellation(request) && is_old) given_up.insert(request.id);
   }
   delivered(given_up, now);
-  for (const auto& request : pending_) robot_.tell(request);
+  // Of a burst the robot hears the last ones alone: the oldest are told, and after them all of the hall and of staff.
+  std::size_t others = 0;
+  for (const auto& request : pending_)
+    if (!is_of_the_house(request) && others++ < kToldTogether) robot_.tell(request);
+  for (const auto& request : pending_)
+    if (is_of_the_house(request)) robot_.tell(request);
   for (const auto& one : unstored_) robot_.tell(one.wish);
 }
 

@@ -115,6 +115,22 @@ TEST_F(WishDeskTest, AWishOfTheHallThatCannotBeStoredIsAcknowledgedOnceItIsOnThe
   EXPECT_EQ(resent(), Ids{});
 }
 
+TEST_F(WishDeskTest, TheHallIsToldAfterACrowdWhoseRestComesLater) {
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(take(wish_for("w" + std::to_string(i), "sputnik")), Reason{});
+  auto hall = wish_for("hall", "sputnik");
+  hall.source = to_text(RequestSource::kiosk);
+  EXPECT_EQ(take(hall), Reason{});
+  for (int i = 100; i < 200; ++i) EXPECT_EQ(take(wish_for("w" + std::to_string(i), "sputnik")), Reason{});
+  const Ids told = resent();
+  EXPECT_LE(told.size(), 32U) << "as many as a late reader keeps";
+  EXPECT_EQ(told.front(), "w0");
+  EXPECT_EQ(told.back(), "hall");
+  std::vector<std::pair<std::string, RequestStatus>> entries;
+  for (const std::string& id : told) entries.emplace_back(id, RequestStatus::queued);
+  see(board_of(entries));
+  EXPECT_EQ(resent().front(), "w24") << "and then the next ones";
+}
+
 TEST_F(WishDeskTest, ACancellationIsSeenInWhatItCancels) {
   see(board_of({{"a", RequestStatus::queued}}));
   EXPECT_EQ(take(wish_for("c", "a", RequestKind::cancel)), Reason{});
