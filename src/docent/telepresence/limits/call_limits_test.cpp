@@ -23,7 +23,7 @@ class CallLimitsTest : public testing::Test {
     return through;
   }
   static std::string one(int /*i*/) { return "192.0.2.1"; }
-  static CountedCall of(Scarce what) { return {.changes = true, .scarce = what}; }
+  static CountedCall of(Scarce what) { return {.caller = "", .changes = true, .scarce = what}; }
 
   CallLimits limits_{{{5.0, 50.0}, {10.0, 200.0}, {20.0 / 600.0, 20.0}, {10.0 / 600.0, 10.0}}};
   Time now_ = time_from_seconds(1000.0);
