@@ -50,7 +50,11 @@ def run(at, to):
                 if state == "cut":
                     near.close()
                     continue
-                far = socket.create_connection(("127.0.0.1", to))
+                try:
+                    far = socket.create_connection(("127.0.0.1", to))
+                except OSError:  # the database has ended
+                    near.close()
+                    continue
                 for end in (near, far):
                     end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 peers[near], peers[far] = far, near

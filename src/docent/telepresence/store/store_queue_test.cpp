@@ -142,7 +142,7 @@ TEST_F(StoreQueueTest, WhoeverWaitsForTooLongIsToldOnce) {
 }
 
 TEST_F(StoreQueueTest, TooManyAreRefused) {
-  make({.most_waiting = 2});
+  make({.most_waiting = 2, .kept = 0});
   hold_up();
   for (const char* name : {"a", "b", "c"}) put(name);
   EXPECT_EQ(told_, Names{"c: too much waits to be stored"});
