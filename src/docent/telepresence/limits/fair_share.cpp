@@ -20,9 +20,9 @@ bool FairShare::take(const std::string& caller, Time now) {
   const double rate = params_.per_second / static_cast<double>(shares_.size());
   share.tokens = std::min(params_.burst, share.tokens + rate * std::max(0.0, to_seconds(now - share.since)));
   share.since = std::max(share.since, now);
-  if (share.tokens < 1.0 || !all_.take({}, now)) return false;
-  share.tokens -= 1.0;
-  return true;
+  if (share.tokens < 1.0) return false;
+  share.tokens -= 1.0;  // also where all together have to wait: nobody saves up what they could not say
+  return all_.take({}, now);
 }
 
 void FairShare::forget(Time now) {

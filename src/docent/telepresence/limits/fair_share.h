@@ -20,12 +20,13 @@ struct FairShareParams {
 class FairShare {
  public:
   explicit FairShare(const FairShareParams& params)
-      : params_{params}, all_{{kRoom * params.per_second, 2.0 * params.per_second}} {}
+      : params_{params}, all_{{kRoom * params.per_second, kAtOnce * params.per_second}} {}
   /// False: the caller, or all together, have to wait.
   [[nodiscard]] bool take(const std::string& caller, Time now);
 
  private:
-  static constexpr double kRoom = 1.25;  ///< all shares together use up their sum: the bound is for many who are new
+  static constexpr double kRoom = 1.25;   ///< all shares together use up their sum: the bound is for many who are new
+  static constexpr double kAtOnce = 3.0;  ///< [s] worth of what all may say at once
   struct Share {
     double tokens = 0.0;
     Time since;
