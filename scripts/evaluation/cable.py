@@ -6,71 +6,74 @@ import socket
 import sys
 
 
-def run(at, to):
-    selector = selectors.DefaultSelector()
-    server = socket.create_server(("127.0.0.1", at), backlog=64)
-    selector.register(server, selectors.EVENT_READ, "server")
-    selector.register(sys.stdin.fileno(), selectors.EVENT_READ, "word")
-    peers, state = {}, "mend"
+class Cable:
+    def __init__(self, at, to):
+        self.to, self.peers, self.state = to, {}, "mend"
+        self.selector = selectors.DefaultSelector()
+        self.server = socket.create_server(("127.0.0.1", at), backlog=64)
+        self.selector.register(self.server, selectors.EVENT_READ)
+        self.selector.register(sys.stdin.fileno(), selectors.EVENT_READ)
 
-    def drop(one):
-        other = peers.pop(one, None)
-        for end in (one, other):
-            if end is None:
-                continue
-            peers.pop(end, None)
-            try:
-                selector.unregister(end)
-            except (KeyError, ValueError):
-                pass
-            end.close()
+    def unwatch(self, end):
+        try:
+            self.selector.unregister(end)
+        except (KeyError, ValueError):
+            pass
 
-    def watch(all_of_them):
-        for end in list(peers):
-            try:
-                selector.unregister(end)
-            except (KeyError, ValueError):
-                pass
-            if all_of_them:
-                selector.register(end, selectors.EVENT_READ, "end")
+    def drop(self, one):
+        for end in (one, self.peers.get(one)):
+            if self.peers.pop(end, None) is not None:
+                self.unwatch(end)
+                end.close()
 
-    while True:
-        for key, _ in selector.select(1.0):
-            if key.data == "word":
-                word = os.read(sys.stdin.fileno(), 64).decode().split()
-                if not word:
-                    return
-                state = word[-1]
-                if state == "cut":
-                    for end in list(peers):
-                        drop(end)
-                watch(state == "mend")
-            elif key.data == "server":
-                near = server.accept()[0]
-                if state == "cut":
-                    near.close()
-                    continue
-                try:
-                    far = socket.create_connection(("127.0.0.1", to))
-                except OSError:  # the database has ended
-                    near.close()
-                    continue
-                for end in (near, far):
-                    end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                peers[near], peers[far] = far, near
-                if state == "mend":
-                    selector.register(near, selectors.EVENT_READ, "end")
-                    selector.register(far, selectors.EVENT_READ, "end")
-            elif key.fileobj in peers:
-                try:
-                    data = key.fileobj.recv(1 << 16)
-                    if data:
-                        peers[key.fileobj].sendall(data)
-                except OSError:
-                    data = b""
-                if not data:
-                    drop(key.fileobj)
+    def obey(self, word):
+        self.state = word
+        for end in list(self.peers):
+            self.unwatch(end)
+            if word == "mend":
+                self.selector.register(end, selectors.EVENT_READ)
+            elif word == "cut":
+                self.drop(end)
+
+    def accept(self):
+        near = self.server.accept()[0]
+        try:
+            far = None if self.state == "cut" else socket.create_connection(("127.0.0.1", self.to))
+        except OSError:  # the database has ended
+            far = None
+        if far is None:
+            return near.close()
+        self.peers[near], self.peers[far] = far, near
+        for end in (near, far):
+            end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            if self.state == "mend":
+                self.selector.register(end, selectors.EVENT_READ)
+        return None
+
+    def carry(self, end):
+        try:
+            data = end.recv(1 << 16)
+            if data:
+                self.peers[end].sendall(data)
+        except OSError:
+            data = b""
+        if not data:
+            self.drop(end)
+
+    def run(self):
+        while True:
+            for key, _ in self.selector.select(1.0):
+                if key.fileobj == self.server:
+                    self.accept()
+                elif key.fileobj in self.peers:
+                    self.carry(key.fileobj)
+                elif key.fileobj == sys.stdin.fileno():
+                    words = os.read(sys.stdin.fileno(), 64).decode().split()
+                    if not words:
+                        return
+                    for word in words:
+                        self.obey(word)
 
 
 if __name__ == "__main__":
-    run(int(sys.argv[1]), int(sys.argv[2]))
+    Cable(int(sys.argv[1]), int(sys.argv[2])).run()
