@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
                    {localize_command::add_localize_command, localize_command::add_map_command,
                     localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole)}},
                   {"Tune", {config_command::add_config_command}},
-                  {"Put it into a robot of your own", {up_command::add_run_command}}},
+                  {"Put it into a robot of your own", {with_robot(up_command::add_run_command, whole)}}},
        .other = "docent-lab",
        .others = {kLaboratoryCommands.begin(), kLaboratoryCommands.end()}},
       argc, argv);

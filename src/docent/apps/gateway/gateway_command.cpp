@@ -17,6 +17,8 @@
 #include "docent/base/files.h"
 #include "docent/base/shipped_files.h"
 #include "docent/telepresence/document_json.h"
+#include "docent/telepresence/limits/fair_share.h"
+#include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/server/web_server.h"
 #include "docent/telepresence/site.h"
 #include "docent/telepresence/uplink/uplink_client.h"
@@ -29,6 +31,8 @@ struct Options {
   std::string from = "127.0.0.1:8090";
   std::string key;
   std::string page;
+  double messages_per_second = 100.0;
+  double calls_per_second = 40.0;
   telepresence::WebServerParams server;
 };
 
@@ -52,6 +56,34 @@ void fetch_documents(telepresence::UplinkClient& line, telepresence::Site& site)
 std::string text_of(const telepresence::ClientMessage& message) {
   return std::visit([](const auto& one) { return telepresence::json_text(one); }, message);
 }
+
+/// The desk of the far gateway: what its visitors ask of the museum, each their share of the line.
+class SharedDesk final : public telepresence::ApiDesk {
+ public:
+  SharedDesk(std::shared_ptr<telepresence::UplinkClient> line, double calls_per_second)
+      : line_{std::move(line)}, share_{{.per_second = calls_per_second}} {}
+  void take(telepresence::ApiRequest request, std::function<void(telepresence::ApiReply)> answer) override {
+    bool is_within = false;
+    {
+      const std::scoped_lock lock{mutex_};
+      is_within = share_.take(telepresence::network_of(request.address), now());
+    }
+    if (!is_within) return answer({429, R"({"reason":"too_fast","about":""})", ""});
+    line_->take(std::move(request), std::move(answer));
+  }
+  void admit(std::string token, std::function<void(telepresence::Admitted)> answer) override {
+    line_->admit(std::move(token), std::move(answer));
+  }
+  void close() override { line_->close(); }
+  static Time now() {
+    return Time{std::chrono::nanoseconds{std::chrono::steady_clock::now().time_since_epoch()}.count()};
+  }
+
+ private:
+  const std::shared_ptr<telepresence::UplinkClient> line_;
+  std::mutex mutex_;
+  telepresence::FairShare share_;
+};
 
 constexpr auto kFirstLine = std::chrono::seconds{15};
 
@@ -84,7 +116,7 @@ class Signal {
 class Gateway {
  public:
   Gateway(const std::string& host, const std::string& port, const std::string& key, const Options& options)
-      : site_{std::make_shared<telepresence::Site>()} {
+      : site_{std::make_shared<telepresence::Site>()}, share_{{.per_second = options.messages_per_second}} {
     const auto page = options.page.empty() ? shipped_path("web/dist") : std::filesystem::path{options.page};
     value_or_fail(site_->load_page(page));
     for (const char* camera : {"/camera/robot.jpg", "/camera/scene.jpg"})
@@ -95,11 +127,13 @@ class Gateway {
     fetch_documents(*uplink_, *site_);
     telepresence::WebServerHooks hooks;
     hooks.message = [this](const telepresence::Caller& caller, const telepresence::ClientMessage& message) {
-      if (is_ready_ && !uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)}))
-        server_->send(caller.id, kBusy);
+      if (!is_ready_) return;
+      if (!share_.take(telepresence::network_of(caller.address), SharedDesk::now()))
+        return server_->send(caller.id, kTooFast);
+      if (!uplink_->say(telepresence::UplinkMessage{caller.id, text_of(message)})) server_->send(caller.id, kBusy);
     };
     hooks.arrived = [this](const std::string& address) { uplink_->say(telepresence::UplinkArrival{address}); };
-    hooks.desk = uplink_;
+    hooks.desk = std::make_shared<SharedDesk>(uplink_, options.calls_per_second);
     auto params = options.server;
     params.full_viewers = 0;  // what the line carries is the pose alone of what moves
     params.foxglove_clients = 0;
@@ -115,6 +149,8 @@ class Gateway {
 
  private:
   static constexpr const char* kBusy = R"({"type":"error","reason":{"word":"not_stored","about":""}})";
+
+  static constexpr const char* kTooFast = R"({"type":"error","reason":{"word":"too_fast","about":""}})";
 
   telepresence::UplinkHooks from_museum() {
     telepresence::UplinkHooks hooks;
@@ -145,6 +181,7 @@ class Gateway {
   }
 
   std::shared_ptr<telepresence::Site> site_;
+  telepresence::FairShare share_;  ///< of what visitors say; the server's thread alone
   Signal has_line_;
   std::atomic<bool> is_ready_{false};
   std::shared_ptr<telepresence::UplinkClient> uplink_;
@@ -180,6 +217,14 @@ void add_gateway_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--address", options->server.address, "where it listens")->capture_default_str();
   command->add_option("--max-viewers", options->server.max_viewers, "at most")->capture_default_str();
+  command
+      ->add_option("--messages-per-second", options->messages_per_second,
+                   "of all visitors together, shared among those who send")
+      ->check(CLI::Range(1.0, 1e4))
+      ->capture_default_str();
+  command->add_option("--calls-per-second", options->calls_per_second, "likewise, calls to /api/v1")
+      ->check(CLI::Range(1.0, 1e4))
+      ->capture_default_str();
   command->add_option("--proxy", options->server.proxies,
                       "address of a proxy of yours, whose X-Forwarded-For is believed");
   command->add_option("--page", options->page, "folder of the built page; without it the one that came with docent");

@@ -12,6 +12,7 @@
 #include "docent/apps/replay/replay_command.h"
 #include "docent/apps/simulate/explore_command.h"
 #include "docent/apps/simulate/simulate_command.h"
+#include "docent/apps/up/run_command.h"
 
 namespace docent::apps::laboratory {
 
@@ -23,7 +24,8 @@ Program docent_lab(const std::string& version) {
           .groups = {{"As docent has them, also with a robot that section `evaluation` cripples",
                       {with_robot(simulate_command::add_simulate_command, robot),
                        with_robot(simulate_command::add_explore_command, robot),
-                       with_robot(replay_command::add_replay_command, robot)}},
+                       with_robot(replay_command::add_replay_command, robot),
+                       with_robot(up_command::add_run_command, robot)}},
                      {"Measure",
                       {evaluate_command::add_evaluate_command, with_robot(crowd_command::add_crowd_command, robot),
                        plan_command::add_plan_command}},

@@ -11,6 +11,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/apps/shared/log.h"
+#include "docent/apps/shared/robot_maker.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/supervisor.h"
 #include "docent/modules/host/module_host.h"
@@ -38,7 +39,7 @@ std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain
                                                   }}));
 }
 
-void run(const RunOptions& options) {
+void run(const RunOptions& options, RobotMaker& maker) {
   if (options.module == kSimulatorProcess) {
     return value_or_fail(run_simulator(options.deployment, options.simulator), kExitBadConfiguration);
   }
@@ -48,7 +49,8 @@ void run(const RunOptions& options) {
   }
   const Deployment& deployment = options.deployment;
   const museum::Museum museum = value_or_fail(deployment.load(), kExitBadConfiguration);
-  const robot::RobotConfig config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
+  robot::RobotConfig config = value_or_fail(deployment.load_config(maker.sections()), kExitBadConfiguration);
+  value_or_fail(maker.read(config), kExitBadConfiguration);
   value_or_fail(deployment.prepare_state(), kExitBadConfiguration);
   if (entry->keeps_cache) prepare_cache(deployment.cache);
 
@@ -69,8 +71,8 @@ void run(const RunOptions& options) {
   host_options.pid = getpid();
   host_options.truth = truth.get();
   host_options.handicap = handicap;
-  const auto host = value_or_fail(modules::ModuleHost::create(*entry, std::move(dds_bus), museum, config, host_options),
-                                  kExitBadConfiguration);
+  const auto host =
+      value_or_fail(maker.make(*entry, std::move(dds_bus), museum, config, host_options), kExitBadConfiguration);
   const std::jthread truth_thread{[&truth](const std::stop_token& stop) {
     if (truth) truth->run(stop);
   }};
@@ -79,13 +81,13 @@ void run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app) {
+void add_run_command(CLI::App& app, std::shared_ptr<RobotMaker> maker) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run one module as a process, perhaps on another computer");
   command->add_option("module", options->module, module_names())->required();
   options->deployment.add_options(*command);
   options->simulator.add_options(*command->add_option_group("For the simulator"));
-  command->callback([options] { run(*options); });
+  command->callback([options, maker = std::move(maker)] { run(*options, *maker); });
 }
 
 }  // namespace docent::apps::up_command

@@ -11,9 +11,10 @@ namespace docent::modules {
 namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds{100};
-/// Many speak there at once: a word is not to be overwritten by another keeper's before it is read, or the stop waits
-/// for the next repetition.
-constexpr Topic<docent_msgs::Stop> kWords{topics::kStop.name, topics::kStop.qos, 16};
+/// All keepers speak on one topic, and answer one another within a millisecond: a reader that keeps the newest word
+/// alone, as that of any other state does, would lose what one said when the next one speaks, and the stop would wait for
+/// the next repetition.
+constexpr Topic<docent_msgs::Stop> kWords{topics::kStop.name, topics::kStop.qos, 32};
 
 StopRegister::Word word_of(const docent_msgs::Stop& stop) {
   return {{stop.number, stop.is_stopped, stop.by}, stop.is_sure};

@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <thread>
 
 #include "docent/base/files.h"
+#include "docent/transport/dds_bus.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent::modules {
@@ -148,6 +152,61 @@ TEST(StopView, OfWhatKeepersSayTheLatestHolds) {
   EXPECT_TRUE(view.see(stop)) << "an older word of one who has not heard yet";
   stop.number = 5;
   EXPECT_FALSE(view.see(stop));
+}
+
+/// One process of a robot over DDS.
+class DdsKeeper {
+ public:
+  explicit DdsKeeper(const char* name) : bus_{std::move(*transport::DdsBus::create({84, "", {}}))} {
+    keeper_ = std::make_unique<StopKeeper>(ModuleContext{*bus_, museum_, config_, "", 1}, name, [] {});
+    bus_->every(std::chrono::milliseconds{1}, [this] {
+      const auto& button = keeper_->button();
+      is_confirmed_ = is_sure_ && button.is_confirmed(asked_, bus_->now());
+      is_sure_ = button.is_sure(bus_->now());
+    });
+    thread_ = std::jthread{[this](const std::stop_token& stop) { bus_->run(stop); }};
+  }
+  DdsKeeper(const DdsKeeper&) = delete;
+  DdsKeeper& operator=(const DdsKeeper&) = delete;
+  ~DdsKeeper() { thread_ = {}; }
+  /// Presses or releases, and waits until enough hold it. @returns [s] 9: they do not
+  double order(bool presses) {
+    const auto begun = std::chrono::steady_clock::now();
+    const auto passed = [&] { return std::chrono::duration<double>{std::chrono::steady_clock::now() - begun}.count(); };
+    is_confirmed_ = false;
+    bus_->post([this, presses] {
+      auto& button = keeper_->button();
+      if (presses) button.press("ada");
+      if (!presses) button.release("ada", button.state().number);
+      asked_ = button.state().number;
+      is_confirmed_ = false;
+      keeper_->tell();
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds{2});
+    while (!is_confirmed_ && passed() < 9.0) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+    return passed();
+  }
+  [[nodiscard]] bool is_sure() const { return is_sure_; }
+
+ private:
+  museum::Museum museum_;
+  robot::RobotConfig config_;
+  std::unique_ptr<transport::DdsBus> bus_;
+  std::unique_ptr<StopKeeper> keeper_;
+  std::uint64_t asked_ = 0;  ///< of the bus's thread
+  std::atomic<bool> is_confirmed_ = false, is_sure_ = false;
+  std::jthread thread_;
+};
+
+TEST(StopKeeperOverDds, IsConfirmedAtOnceThoughAllAnswerTogether) {
+  DdsKeeper avoid{"avoid"}, robot{"robot"}, web{"web/one"};
+  for (int i = 0; i < 500 && !(avoid.is_sure() && robot.is_sure() && web.is_sure()); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  std::vector<double> waits;
+  for (int i = 0; i < 20; ++i) waits.push_back(web.order(i % 2 == 0));
+  std::sort(waits.begin(), waits.end());
+  std::printf("confirmed after %.3f s in the median, %.3f s at most\n", waits[10], waits.back());
+  EXPECT_LT(waits[10], 0.1);
 }
 
 }  // namespace

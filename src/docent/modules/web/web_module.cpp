@@ -72,6 +72,7 @@ telepresence::WebServiceParts service_parts(const ModuleContext& context, const 
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);
   parts.post = [&bus = context.bus](std::function<void()> work) { bus.post(std::move(work)); };
+  context.config.amend(parts.queue);
   parts.backups.emplace(context.state, database_of(context, params), context.museum.folder);
   parts.is_shared = telepresence::Database::is_shared(params.database);
   parts.max_open_requests = static_cast<std::size_t>(params.max_open_requests);
@@ -98,8 +99,10 @@ class WebModule final : public Module {
     auto store = telepresence::WebStore::open(where);
     if (!store) return tl::unexpected<Error>(store.error());
     Offices offices{context};
+    const auto when =
+        store->database->is_gone() ? telepresence::Database::Try::later : telepresence::Database::Try::now;
     auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock, {}, offices.museum->office(),
-                                         offices.setup->office());
+                                         offices.setup->office(), when);
     if (!desk) return tl::unexpected<Error>(desk.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());

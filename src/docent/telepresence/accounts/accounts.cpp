@@ -37,6 +37,13 @@ bool is_account_name(const std::string& name) {
   return !name.empty() && name.size() <= 40 && name.find_first_not_of(kLetters) == std::string::npos;
 }
 
+/// Of csrf, person, name, rank, address, expires. nullopt: its rank is of a newer program.
+std::optional<Login> login_of(const Row& row, const std::string& token) {
+  const auto rank = parse<Rank>(row.text(3));
+  if (!rank) return std::nullopt;
+  return Login{{row.text(1), row.text(2), *rank}, token, row.text(0), row.text(4), Time{row.number(5)}};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Accounts>> Accounts::open(Database& database, const PasswordCost& cost) {
@@ -125,19 +132,19 @@ Result<std::optional<Login>> Accounts::find(const std::string& token, Time now) 
       {hash_token(token), now.nanoseconds});
   if (!rows) return tl::unexpected<Error>(rows.error());
   if (rows->rows.empty()) return std::nullopt;
-  const Row& row = rows->rows.front();
-  const auto rank = parse<Rank>(row.text(3));
-  if (!rank) return std::nullopt;
-  return Login{{row.text(1), row.text(2), *rank}, token, row.text(0), row.text(4), Time{row.number(5)}};
+  return login_of(rows->rows.front(), token);
 }
 
-Result<std::set<std::string>> Accounts::sessions_of_accounts(Time now) {
-  auto rows =
-      database_.run("SELECT token FROM sessions WHERE expires > $1 AND person LIKE 'account:%'", {now.nanoseconds});
+Result<std::map<std::string, Login>> Accounts::logins_of_accounts(Time now) {
+  auto rows = database_.run(
+      "SELECT csrf, person, name, rank, address, expires, token FROM sessions WHERE expires > $1"
+      " AND person LIKE 'account:%'",
+      {now.nanoseconds});
   if (!rows) return tl::unexpected<Error>(rows.error());
-  std::set<std::string> tokens;
-  for (const Row& row : rows->rows) tokens.insert(row.text(0));
-  return tokens;
+  std::map<std::string, Login> logins;
+  for (const Row& row : rows->rows)
+    if (auto login = login_of(row, "")) logins.emplace(row.text(6), std::move(*login));
+  return logins;
 }
 
 Result<void> Accounts::remember(const Place& place, Time now) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -59,8 +59,9 @@ class Accounts {
   [[nodiscard]] Result<std::optional<Login>> find(const std::string& token, Time now);
   [[nodiscard]] Result<void> end(const std::string& token);
 
-  /// The sessions of those with accounts that have not ended, as hash_token gives their tokens.
-  [[nodiscard]] Result<std::set<std::string>> sessions_of_accounts(Time now);
+  /// The logins of those with accounts that have not ended, by what hash_token gives of their tokens, which nobody
+  /// knows.
+  [[nodiscard]] Result<std::map<std::string, Login>> logins_of_accounts(Time now);
 
   /// From where an account's password was right, for `LoginDoor`; `network` of limits/network.h.
   struct Place {

@@ -15,7 +15,10 @@ LoginDoor::LoginDoor(const LoginDoorParams& params)
 
 void LoginDoor::know(const std::string& name, const std::string& caller) {
   const std::scoped_lock lock{mutex_};
-  if (known_.size() < params_.most) known_.insert(pair_of(name, caller));
+  if (known_.size() < params_.most) {
+    known_.insert(pair_of(name, caller));
+    callers_.insert(caller);
+  }
   wrong_.erase(caller);
 }
 
@@ -34,6 +37,11 @@ int LoginDoor::rank(const std::string& name, const std::string& caller) const {
   if (is_known(name, caller)) return 0;
   const auto wrong = wrong_.find(caller);
   return wrong == wrong_.end() ? 1 : 1 + wrong->second.times;
+}
+
+bool LoginDoor::is_from(const std::string& caller) const {
+  const std::scoped_lock lock{mutex_};
+  return callers_.contains(caller);
 }
 
 void LoginDoor::was_wrong(const std::string& caller, Time now) {

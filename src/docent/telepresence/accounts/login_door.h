@@ -30,6 +30,8 @@ class LoginDoor {
   /// In which order those who wait are heard, the smallest first: who was right before, then who was wrong least often.
   [[nodiscard]] int rank(const std::string& name, const std::string& caller) const;
   void was_wrong(const std::string& caller, Time now);
+  /// Whether somebody was let in from there.
+  [[nodiscard]] bool is_from(const std::string& caller) const;
 
  private:
   struct Wrong {
@@ -42,7 +44,7 @@ class LoginDoor {
   const LoginDoorParams params_;
   mutable std::mutex mutex_;
   RateLimits addresses_, names_;
-  std::set<std::string> known_;
+  std::set<std::string> known_, callers_;
   std::map<std::string, Wrong> wrong_;
 };
 

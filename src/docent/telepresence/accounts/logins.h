@@ -3,7 +3,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -19,11 +18,11 @@ class Logins {
   void keep(const Login& login, Time now);
   /// nullopt: unknown, or over.
   [[nodiscard]] std::optional<Login> find(const std::string& token, Time now) const;
-  /// It is over.
-  void end(const std::string& token);
-  /// What the database says: `live`, as hash_token gives them, were the logins at `asked`. Ends those that are no more.
-  /// @returns them, likewise as hashes
-  [[nodiscard]] std::vector<std::string> keep_only(const std::set<std::string>& live, Time asked);
+  /// It is over, whatever the database says later.
+  void end(const Login& login);
+  /// What the database says: `live`, by what hash_token gives of their tokens, were the logins at `asked`, wherever
+  /// they began. Ends those that are no more. @returns them, likewise as hashes
+  [[nodiscard]] std::vector<std::string> learn(const std::map<std::string, Login>& live, Time asked);
 
  private:
   struct Known {
@@ -32,6 +31,7 @@ class Logins {
   };
   mutable std::mutex mutex_;
   std::map<std::string, Known> logins_;  ///< by the hash of their token
+  std::map<std::string, Time> ended_;    ///< here, until they would have expired
 };
 
 }  // namespace docent::telepresence

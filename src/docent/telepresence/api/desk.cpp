@@ -24,16 +24,30 @@ std::string name_in(const std::string& body) {
 constexpr double kReadsAtOnce = 10.0;   // [s] worth of them
 constexpr double kWritesAtOnce = 20.0;  // [s] likewise
 
+CallRates rates_of(const ApiParams& params, const ForumParams& forum) {
+  const auto calls = [](double per_second, double at_once) {
+    return Rate{per_second, std::max(1.0, at_once * per_second)};
+  };
+  const auto in_a_while = [&](double count) { return Rate{count / forum.while_s, count}; };
+  return {calls(params.reads_per_second, kReadsAtOnce), calls(params.writes_per_second, kWritesAtOnce),
+          in_a_while(forum.posts_of_address), in_a_while(forum.reports_of_address)};
+}
+
+CountedCall counted(const ApiRequest& request, const Endpoint& endpoint, bool is_staff) {
+  return {is_staff ? "login " + request.token : network_of(request.address), is_staff, request.is_far,
+          endpoint.changes(), endpoint.scarce};
+}
+
 }  // namespace
 
-Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params, Clock clock)
+Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params,
+           const ForumParams& forum, Clock clock)
     : params_{params},
       clock_{std::move(clock)},
       store_{std::move(store)},
       staff_{std::move(staff)},
       passwords_{std::move(passwords)},
-      reads_{{params.reads_per_second, std::max(1.0, kReadsAtOnce * params.reads_per_second)}},
-      writes_{{params.writes_per_second, std::max(1.0, kWritesAtOnce * params.writes_per_second)}},
+      limits_{rates_of(params, forum)},
       door_{{.of_address = {params.logins_per_minute / 60.0, params.logins_per_minute},
              .of_name = {params.logins_per_minute / 60.0, params.logins_per_minute}}},
       store_worker_{static_cast<std::size_t>(params.calls_waiting)},
@@ -43,30 +57,37 @@ Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const Ap
 Result<std::unique_ptr<Desk>> Desk::open(const std::string& database, const ApiParams& params, const ForumParams& forum,
                                          Clock clock, const PasswordCost& cost,
                                          std::shared_ptr<const MuseumOffice> museum,
-                                         std::shared_ptr<const SetupOffice> setup) {
+                                         std::shared_ptr<const SetupOffice> setup, Database::Try when) {
   std::array<ApiServices, 3> services;
   for (ApiServices& each : services) {
-    auto opened = ApiServices::open(database, params, forum, cost);
+    auto opened = ApiServices::open(database, params, forum, cost, when);
     if (!opened) return tl::unexpected<Error>(opened.error());
     each = std::move(*opened);
+    if (each.database->is_gone()) when = Database::Try::later;  // nobody waits for it three times
   }
-  auto places = services[0].accounts->places();
-  if (!places) return tl::unexpected<Error>(places.error());
   auto& [store, staff, passwords] = services;
   staff.museum = std::move(museum);
   staff.setup = std::move(setup);
   std::unique_ptr<Desk> desk{
-      new Desk{std::move(store), std::move(staff), std::move(passwords), params, std::move(clock)}};
-  for (const auto& [name, network] : *places) desk->door_.know(name, network);
+      new Desk{std::move(store), std::move(staff), std::move(passwords), params, forum, std::move(clock)}};
+  if (auto learnt = desk->learn_places(desk->store_); !learnt && !desk->store_.database->is_gone())
+    return tl::unexpected<Error>(learnt.error());
   return desk;
 }
 
-bool Desk::is_within_rate(const ApiRequest& request, const Endpoint& endpoint, bool is_staff) {
-  // What strangers do from an operator's address is no matter of the operator's.
-  const std::string caller = is_staff ? "login " + request.token : network_of(request.address);
-  const std::scoped_lock lock{limits_mutex_};
-  return (endpoint.changes() ? writes_ : reads_).take(caller, clock_());
+/// From where whoever has an account was let in before, and who is in.
+Result<void> Desk::learn_places(ApiServices& services) {
+  const auto live = services.accounts->logins_of_accounts(clock_());
+  if (!live) return tl::unexpected<Error>(live.error());
+  (void)logins_.learn(*live, clock_());
+  auto places = services.accounts->places();
+  if (!places) return tl::unexpected<Error>(places.error());
+  for (const auto& [name, network] : *places) door_.know(name, network);
+  knows_places_ = true;
+  return {};
 }
+
+bool Desk::is_staff_from(const std::string& address) const { return door_.is_from(network_of(address)); }
 
 void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
   std::map<std::string, std::string> path;
@@ -76,7 +97,9 @@ void Desk::take(ApiRequest request, std::function<void(ApiReply)> answer) {
   if (request.is_far && (endpoint.is_dear || endpoint.least > Rank::visitor))
     return answer(refusal({ApiFault::not_allowed, "nearer to the robot"}));
   const bool is_staff = !request.is_far && logins_.find(request.token, clock_()).has_value();
-  if (!is_within_rate(request, endpoint, is_staff)) return answer(refusal({ApiFault::too_fast, ""}));
+  const CallLimits::Pace pace = limits_.take(counted(request, endpoint, is_staff), clock_());
+  if (pace == CallLimits::Pace::too_fast) return answer(refusal({ApiFault::too_fast, ""}));
+  if (pace == CallLimits::Pace::too_often) return answer(refusal({ApiFault::too_often, ""}));
   int rank = 0;
   if (endpoint.is_dear) {
     const std::string name = name_in(request.body);
@@ -127,7 +150,7 @@ void Desk::note_logins(const ApiCall& call, const std::string& name, bool is_wro
   const std::string caller = network_of(call.request.address);
   if (is_wrong) door_.was_wrong(caller, call.now);
   if (call.ended) {
-    logins_.end(call.ended->token);
+    logins_.end(*call.ended);
     tell_ended(hash_token(call.ended->token));
   }
   if (!call.begun) return;
@@ -191,17 +214,21 @@ ApiAnswer<nlohmann::json> Desk::answer(ApiCall& call, const Endpoint& endpoint) 
   return document;
 }
 
-void Desk::admit(std::string token, std::function<void(std::optional<Admission>)> answer) {
+void Desk::admit(std::string token, std::function<void(Admitted)> answer) {
   const auto admission = [token](const std::optional<Login>& login) {
     const bool is_operator = login && login->person.is_at_least(Rank::operator_);
     return is_operator ? std::optional{Admission{login->person.name, hash_token(token)}} : std::nullopt;
   };
-  // Whoever is known waits for no database.
+  // Whoever is known waits for no database, and whoever has nothing to show neither.
+  if (token.empty()) return answer(std::optional<Admission>{});
   if (const auto known = logins_.find(token, clock_())) return answer(admission(known));
-  const auto tell = std::make_shared<std::function<void(std::optional<Admission>)>>(std::move(answer));
-  const bool is_taken =
-      store_worker_.post([this, token, admission, tell] { (*tell)(admission(login_of(store_, token, clock_()))); });
-  if (!is_taken) (*tell)(std::nullopt);
+  const auto tell = std::make_shared<std::function<void(Admitted)>>(std::move(answer));
+  const bool is_taken = store_worker_.post([this, token, admission, tell] {
+    const auto login = login_of(store_, token, clock_());
+    const bool is_unknown = !login && store_.database->is_gone();
+    (*tell)(is_unknown ? Admitted{fail("the database does not answer")} : Admitted{admission(login)});
+  });
+  if (!is_taken) (*tell)(fail("too many wait"));
 }
 
 void Desk::note(std::string who, std::string what, std::string about) {
@@ -216,9 +243,10 @@ void Desk::look() {
   const bool is_taken = staff_worker_.post([this] {
     const Time now = clock_();
     is_looking_ = false;
-    const auto live = staff_.accounts->sessions_of_accounts(now);
+    if (!knows_places_) (void)learn_places(staff_);  // else a second later
+    const auto live = staff_.accounts->logins_of_accounts(now);
     if (!live) return;  // while nobody answers, whoever is in stays in
-    for (const std::string& login : logins_.keep_only(*live, now)) tell_ended(login);
+    for (const std::string& login : logins_.learn(*live, now)) tell_ended(login);
   });
   if (!is_taken) is_looking_ = false;
 }

@@ -10,7 +10,6 @@
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/api/exchange/exchange.h"
 #include "docent/telepresence/api/worker.h"
-#include "docent/telepresence/limits/rate_limits.h"
 
 namespace docent::telepresence {
 
@@ -21,18 +20,21 @@ class Desk final : public ApiDesk {
  public:
   using Clock = std::function<Time()>;
 
-  /// Error: the database cannot be opened.
+  /// Error: the database cannot be opened. A server that nobody answers at is asked again with each call.
   /// @param clock   since 1970; any thread may call it
   /// @param museum  what operators may change; null: nothing. Only the desk's own thread uses it
   /// @param setup   where a museum is set up; null: nowhere. Likewise
+  /// @param when    the database is tried first
   [[nodiscard]] static Result<std::unique_ptr<Desk>> open(const std::string& database, const ApiParams& params,
                                                           const ForumParams& forum, Clock clock,
                                                           const PasswordCost& cost = {},
                                                           std::shared_ptr<const MuseumOffice> museum = nullptr,
-                                                          std::shared_ptr<const SetupOffice> setup = nullptr);
+                                                          std::shared_ptr<const SetupOffice> setup = nullptr,
+                                                          Database::Try when = Database::Try::now);
 
   void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
-  void admit(std::string token, std::function<void(std::optional<Admission>)> answer) override;
+  void admit(std::string token, std::function<void(Admitted)> answer) override;
+  [[nodiscard]] bool is_staff_from(const std::string& address) const override;
   void when_ended(std::function<void(const std::string& login)> told) override;
   /// Any thread: an operator did something through another door than /api/v1.
   void note(std::string who, std::string what, std::string about);
@@ -42,7 +44,8 @@ class Desk final : public ApiDesk {
   void tidy();
 
  private:
-  Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params, Clock clock);
+  Desk(ApiServices store, ApiServices staff, ApiServices passwords, const ApiParams& params, const ForumParams& forum,
+       Clock clock);
   /// On its way from `take` to whoever answers.
   struct Call {
     const Endpoint& endpoint;
@@ -51,10 +54,10 @@ class Desk final : public ApiDesk {
     std::function<void(ApiReply)> answer;
   };
   void post(Worker& worker, ApiServices& services, const std::shared_ptr<Call>& call, int rank = 0);
-  [[nodiscard]] bool is_within_rate(const ApiRequest& request, const Endpoint& endpoint, bool is_staff);
   [[nodiscard]] std::optional<Login> login_of(ApiServices& services, const std::string& token, Time now);
   void note_logins(const ApiCall& call, const std::string& name, bool is_wrong);
   void tell_ended(const std::string& login);
+  [[nodiscard]] Result<void> learn_places(ApiServices& services);
   [[nodiscard]] ApiReply reply_to(ApiServices& services, const ApiRequest& request, const Endpoint& endpoint,
                                   std::map<std::string, std::string> path);
   [[nodiscard]] ApiAnswer<nlohmann::json> answer(ApiCall& call, const Endpoint& endpoint);
@@ -62,13 +65,12 @@ class Desk final : public ApiDesk {
   ApiParams params_;
   Clock clock_;
   ApiServices store_, staff_, passwords_;  ///< of the worker of that name alone
-  std::mutex limits_mutex_;                ///< of the two below
-  RateLimits reads_, writes_;
+  CallLimits limits_;
   LoginDoor door_;
   Logins logins_;
   std::mutex ended_mutex_;
   std::function<void(const std::string&)> ended_;
-  std::atomic<bool> is_looking_ = false;
+  std::atomic<bool> is_looking_ = false, knows_places_ = false;
   Worker store_worker_, staff_worker_, password_worker_;  ///< last: they use the others
 };
 

@@ -76,7 +76,7 @@ class TheDesk : public testing::Test {
   }
   std::optional<std::string> admitted(const std::string& token) {
     std::promise<std::optional<Admission>> promise;
-    desk_->admit(token, [&](std::optional<Admission> who) { promise.set_value(std::move(who)); });
+    desk_->admit(token, [&](Admitted who) { promise.set_value(who ? std::move(*who) : std::nullopt); });
     const auto who = promise.get_future().get();
     return who ? std::optional{who->name} : std::nullopt;
   }

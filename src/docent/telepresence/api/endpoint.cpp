@@ -75,14 +75,14 @@ Result<void> ApiParams::validate() const {
 constexpr Duration kPatience = std::chrono::seconds{2};  // a database that hangs for so long is gone
 
 Result<ApiServices> ApiServices::open(const std::string& where, const ApiParams& params, const ForumParams& forum,
-                                      const PasswordCost& cost) {
+                                      const PasswordCost& cost, Database::Try when) {
   ApiServices services;
   const auto take = [](auto& place, auto opened) -> Result<void> {
     if (!opened) return tl::unexpected<Error>(opened.error());
     place = std::move(*opened);
     return {};
   };
-  auto ready = take(services.database, Database::open(where));
+  auto ready = take(services.database, Database::open(where, when));
   if (ready) ready = take(services.accounts, Accounts::open(*services.database, cost));
   if (ready) ready = take(services.forum, Forum::open(*services.database, forum));
   if (ready) ready = take(services.statistics, Statistics::open(*services.database));

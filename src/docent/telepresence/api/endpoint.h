@@ -19,6 +19,7 @@
 #include "docent/telepresence/api/schemas.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/forum/forum.h"
+#include "docent/telepresence/limits/call_limits.h"
 #include "docent/telepresence/museum_office/museum_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 
@@ -63,7 +64,8 @@ struct ApiServices {
   std::shared_ptr<const SetupOffice> setup;    ///< null: no museum is set up here
   ApiParams params;
   [[nodiscard]] static Result<ApiServices> open(const std::string& database, const ApiParams& params,
-                                                const ForumParams& forum, const PasswordCost& cost);
+                                                const ForumParams& forum, const PasswordCost& cost,
+                                                Database::Try when = Database::Try::now);
 };
 
 /// A call, whose caller may make it.
@@ -99,6 +101,7 @@ struct Endpoint {
   const char* summary;
   std::vector<const char*> query;  ///< names that it understands
   bool is_dear = false;            ///< hashes a password
+  Scarce scarce = Scarce::no;
   bool has_body = false;
   std::function<ApiAnswer<nlohmann::json>(ApiCall&, const nlohmann::json& body)> handle;
   std::function<nlohmann::json(Schemas&)> request, reply;

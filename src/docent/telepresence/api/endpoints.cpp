@@ -56,10 +56,22 @@ ApiAnswer<documents::Me> log_in(ApiCall& call, const documents::NewLogin& wish) 
     if (auto noted = note_wrong_password(call, clean_name(wish.name)); !noted) return unstored(noted.error());
     return refuse(ApiFault::wrong_password);
   }
-  if (auto noted = note(call, (*person)->id, "login"); !noted) return unstored(noted.error());
-  const Accounts::Place place{wish.name, network_of(call.request.address)};
-  if (auto known = call.services.accounts->remember(place, call.now); !known) return unstored(known.error());
-  return begin_login(call, **person, 3600.0 * call.services.params.login_hours);
+  // One commit: whoever logs in waits once for a disk that others keep busy.
+  ApiAnswer<documents::Me> me = refuse(ApiFault::not_stored);
+  const auto stored = call.services.database->in_transaction([&]() -> Result<void> {
+    if (auto noted = note(call, (*person)->id, "login"); !noted) return noted;
+    const Accounts::Place place{wish.name, network_of(call.request.address)};
+    if (auto known = call.services.accounts->remember(place, call.now); !known) return known;
+    me = begin_login(call, **person, 3600.0 * call.services.params.login_hours);
+    return me ? Result<void>{} : fail(me.error().about);
+  });
+  if (!stored) {
+    call.begun.reset();
+    call.ended.reset();
+    call.set_cookie.clear();
+    return unstored(stored.error());
+  }
+  return me;
 }
 
 /// Of somebody with an account, or what looks like it.
@@ -171,8 +183,9 @@ ApiAnswer<documents::PostWritten> write(ApiCall& call, const documents::NewPost&
 }
 
 ApiAnswer<Nothing> report(ApiCall& call, const Nothing& /*wish*/) {
-  const auto reported =
-      call.services.forum->report(call.path.at("post"), call.person, network_of(call.request.address));
+  // From where somebody far away comes is only said: all of them count once, and hide nothing by themselves.
+  const std::string network = call.request.is_far ? "far" : network_of(call.request.address);
+  const auto reported = call.services.forum->report(call.path.at("post"), call.person, network);
   if (!reported) return unstored(reported.error());
   if (!*reported) return refuse(ApiFault::not_found, "no such post");
   return Nothing{};
@@ -266,7 +279,12 @@ std::vector<Endpoint> make_table() {
   for (Endpoint& each : audit_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : museum_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : setup_endpoints()) table.push_back(std::move(each));
-  for (Endpoint& each : table) each.is_dear = std::string_view{each.name} == "login";
+  for (Endpoint& each : table) {
+    const std::string_view name = each.name;
+    each.is_dear = name == "login";
+    if (name == "begin_thread" || name == "write_post") each.scarce = Scarce::posts;
+    if (name == "report_post") each.scarce = Scarce::reports;
+  }
   return table;
 }
 

@@ -49,6 +49,8 @@ Result<void> ForumParams::validate() const {
   if (page < 1 || page > 100) return fail("web.forum.page must be 1 to 100");
   if (posts_in_a_while < 1) return fail("web.forum.posts_in_a_while must be at least 1");
   if (!(while_s > 0.0)) return fail("web.forum.while_s must be > 0");
+  if (posts_of_address < 1) return fail("web.forum.posts_of_address must be at least 1");
+  if (reports_of_address < 1) return fail("web.forum.reports_of_address must be at least 1");
   if (reports_that_hold < 1) return fail("web.forum.reports_that_hold must be at least 1");
   return {};
 }

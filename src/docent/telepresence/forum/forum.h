@@ -41,12 +41,16 @@ struct ForumParams {
   int page = 20;              ///< threads or posts that are given at a time
   int posts_in_a_while = 5;   ///< that one person may write in
   double while_s = 600.0;     ///< [s] so long
-  int reports_that_hold = 3;  ///< by so many people: a moderator is to read it again
+  int posts_of_address = 20;  ///< likewise, that all who come from one address may write; all far visitors: five times
+  int reports_of_address = 20;  ///< likewise, of posts that should not stand there
+  int reports_that_hold = 3;    ///< by so many people: a moderator is to read it again
   template <class V>
   void visit(V& v) {
     v("page", page);
     v("posts_in_a_while", posts_in_a_while);
     v("while_s", while_s);
+    v("posts_of_address", posts_of_address);
+    v("reports_of_address", reports_of_address);
     v("reports_that_hold", reports_that_hold);
   }
   [[nodiscard]] Result<void> validate() const;

@@ -19,6 +19,11 @@ constexpr int kMostLargeBodies = 4;          // read at a time, so that nobody f
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
+/// Whoever has logged in may be one of ours; nobody knows it now.
+HttpAnswer unrecognized(const Error& why) {
+  return refusal(503, "Nobody can be recognized now: " + why.message + ".\n");
+}
+
 std::string etag_of(const SiteReply& reply) { return '"' + reply.taken + '"'; }
 
 }  // namespace
@@ -67,13 +72,14 @@ void HttpConnection::look_at_header() {
 void HttpConnection::read_large_body() {
   if (!owner_.desk || owner_.is_closing) return send(refusal(503, "not now\n"), false, false);
   std::string token{cookie_value(view_of(parser_->get()[http::field::cookie]), kLoginCookie)};
-  auto begin = [](HttpConnection& self, const std::optional<Admission>& who) {
-    if (!who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
+  auto begin = [](HttpConnection& self, const Admitted& who) {
+    if (!who) return self.send(unrecognized(who.error()), false, false);
+    if (!*who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
     if (self.owner_.large_bodies >= kMostLargeBodies) return self.send(refusal(503, "not now\n"), false, false);
     self.large_body_.emplace(self.owner_.large_bodies);
     self.read_body();
   };
-  owner_.desk->admit(std::move(token), when_answered<std::optional<Admission>>(std::move(begin)));
+  owner_.desk->admit(std::move(token), when_answered<Admitted>(std::move(begin)));
 }
 
 void HttpConnection::read_body() {
@@ -138,12 +144,13 @@ void HttpConnection::admit(HttpRequest request) {
   std::string token{cookie_value(view_of(request[http::field::cookie]), kLoginCookie)};
   const std::string address = address_of(request);
   stream_.expires_never();
-  auto open = [request = std::move(request), address](HttpConnection& self, std::optional<Admission> who) mutable {
-    if (!who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
+  auto open = [request = std::move(request), address](HttpConnection& self, Admitted who) mutable {
+    if (!who) return self.send(unrecognized(who.error()), false, false);
+    if (!*who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
     self.owner_.open_live(self.stream_.release_socket(), std::move(request),
-                          {Role::staff, false, address, who->name, who->login, std::move(self.place_)});
+                          {Role::staff, false, address, (*who)->name, (*who)->login, std::move(self.place_)});
   };
-  owner_.desk->admit(std::move(token), when_answered<std::optional<Admission>>(std::move(open)));
+  owner_.desk->admit(std::move(token), when_answered<Admitted>(std::move(open)));
 }
 
 void HttpConnection::serve() {
@@ -157,6 +164,9 @@ void HttpConnection::serve() {
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
     const std::string address = address_of(request);
+    const bool is_forwarded = !place_ && address != peer();
+    if (is_forwarded && live->role == Role::visitor && !(place_ = owner_.take_place(address)))
+      return send(refusal(429, "too many connections from there\n"), false, false);
     return owner_.open_live(stream_.release_socket(), std::move(request),
                             {live->role, live->is_thin, address, "", "", std::move(place_)});
   }

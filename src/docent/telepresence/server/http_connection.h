@@ -35,7 +35,9 @@ struct HttpOwner {
   /// The connection becomes a session.
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest, const Arrival&)> open_live;
   std::function<void(boost::asio::ip::tcp::socket, HttpRequest)> open_foxglove;
-  std::shared_ptr<ApiDesk> desk;     ///< null: there is no /api/v1
+  std::shared_ptr<ApiDesk> desk;  ///< null: there is no /api/v1
+  /// A place among those of that address; null: it has none left.
+  std::function<std::shared_ptr<Place>(const std::string& address)> take_place;
   std::vector<std::string> proxies;  ///< addresses whose X-Forwarded-For is believed
   std::vector<std::string> origins;  ///< see role_of
   Hosts hosts{{}};

@@ -30,9 +30,10 @@ class ADesk final : public ApiDesk {
       answer({200, R"({"ok":true})", "docent_login=abc; HttpOnly"});
     });
   }
-  void admit(std::string token, std::function<void(std::optional<Admission>)> answer) override {
+  void admit(std::string token, std::function<void(Admitted)> answer) override {
     const std::scoped_lock lock{mutex_};
     threads_.emplace_back([token = std::move(token), answer = std::move(answer)] {
+      if (token == "odd") return answer(fail("the database does not answer"));
       answer(token == "good" ? std::optional{Admission{"ada", "login of ada"}} : std::nullopt);
     });
   }
@@ -227,6 +228,34 @@ TEST_F(HttpConnections, BelieveAForwardedAddressFromAProxyOfOursAlone) {
   ASSERT_TRUE(viewer.upgrade("X-Forwarded-For: 203.0.113.10\r\n"));
   const std::scoped_lock lock{mutex_};
   EXPECT_EQ(arrived_, std::vector<std::string>{"203.0.113.10"});
+}
+
+TEST_F(HttpConnections, OfOneForwardedAddressThereAreSoManyLines) {
+  WebServerParams params;
+  params.proxies = {"127.0.0.1"};
+  params.connections_of_address = 3;
+  start(params);
+  std::vector<std::unique_ptr<TestClient>> viewers;
+  const auto comes_in = [&](const std::string& address) {
+    viewers.push_back(std::make_unique<TestClient>(server_->port()));
+    return viewers.back()->upgrade("X-Forwarded-For: " + address + "\r\n");
+  };
+  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(comes_in("2001:db8:1:2::" + std::to_string(i)));
+  EXPECT_FALSE(comes_in("2001:db8:1:2::4")) << "one household";
+  EXPECT_TRUE(comes_in("2001:db8:1:3::1"));
+  TestClient ada{server_->port()};
+  EXPECT_TRUE(ada.upgrade("Cookie: docent_login=good\r\nX-Forwarded-For: 2001:db8:1:2::5\r\n", "/operate"));
+}
+
+TEST_F(HttpConnections, WhereNobodyCanBeRecognizedThatIsSaid) {
+  start();
+  TestClient ada{server_->port()};
+  ada.send(
+      "GET /operate HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: "
+      "dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\nCookie: docent_login=odd\r\n\r\n");
+  const auto [head, body] = ada.receive_reply();
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 503")) << head;
+  EXPECT_NE(body.find("the database does not answer"), std::string::npos) << body;
 }
 
 TEST_F(HttpConnections, AnOperatorWhoHasLoggedInIsAdmitted) {

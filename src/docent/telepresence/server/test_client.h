@@ -19,10 +19,14 @@ namespace docent::telepresence {
 /// A client made of a bare socket, so that it can misbehave.
 class TestClient {
  public:
-  explicit TestClient(int port, int receive_buffer = 0) : socket_{::socket(AF_INET, SOCK_STREAM, 0)} {
+  /// @param from  of this computer: 127.0.0.2 and so on are other callers
+  explicit TestClient(int port, int receive_buffer = 0, const char* from = "127.0.0.1")
+      : socket_{::socket(AF_INET, SOCK_STREAM, 0)} {
     if (receive_buffer > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     sockaddr_in address{};
     address.sin_family = AF_INET;
+    address.sin_addr.s_addr = ::inet_addr(from);
+    if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     is_connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;

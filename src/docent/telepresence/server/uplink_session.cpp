@@ -4,15 +4,22 @@
 #include <boost/asio/post.hpp>
 #include <chrono>
 
+#include "docent/telepresence/live_encoding.h"
 #include "docent/telepresence/uplink/uplink_door.h"
 
 namespace docent::telepresence {
 namespace {
 
+constexpr double kAtOnce = 2.0;  // [s] worth of what the line may say
+constexpr const char* kTooFast = R"({"reason":"too_fast","about":""})";
+constexpr std::size_t kLongestAddress = 64;
 constexpr auto kTick = std::chrono::milliseconds{100};
 constexpr std::size_t kMostAnswers = 2000;  // that wait; an uplink that lets more pile up is cut off
 constexpr const char* kRobotPath = "/camera/robot.jpg";
 constexpr const char* kScenePath = "/camera/scene.jpg";
+
+/// As it is claimed, and no address of this side.
+std::string far_address(const std::string& claimed) { return "far " + claimed.substr(0, kLongestAddress); }
 
 }  // namespace
 
@@ -24,7 +31,10 @@ UplinkSession::UplinkSession(SessionOwner& sessions, UplinkOwner& owner, const W
       picture_s_{params.uplink_picture_s},
       piece_bytes_{static_cast<std::size_t>(std::max(1, params.uplink_picture_bytes_per_s / 10))},
       line_{std::move(line)},
-      timer_{line_->executor()} {
+      timer_{line_->executor()},
+      messages_{params.uplink_messages_per_second, kAtOnce * params.uplink_messages_per_second},
+      calls_{params.uplink_calls_per_second, kAtOnce * params.uplink_calls_per_second},
+      writes_{params.uplink_writes_per_second, kAtOnce * params.uplink_writes_per_second} {
   ++sessions_.connections;
 }
 
@@ -125,17 +135,33 @@ void UplinkSession::read() {
 
 void UplinkSession::hear(ToMuseum message) {
   if (const auto* arrival = std::get_if<UplinkArrival>(&message)) {
-    if (owner_.arrived) owner_.arrived(arrival->address);
-    return;
+    const bool is_counted = owner_.arrived && messages_.take(TokenBucket::Clock::now());
+    if (is_counted) owner_.arrived(far_address(arrival->address));
+  } else if (const auto* said = std::get_if<UplinkMessage>(&message)) {
+    hear(*said);
+  } else {
+    hear(std::move(std::get<UplinkCall>(message)));
   }
-  if (const auto* said = std::get_if<UplinkMessage>(&message)) {
-    // The far gateway has looked at it; here it is looked at again.
-    const auto parsed = parse_client_message(said->text);
-    const bool is_theirs = said->viewer < (1ULL << kUplinkShift);
-    if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed, false)) return void(++sessions_.messages_refused);
-    return sessions_.message({(number_ << kUplinkShift) | said->viewer, Role::visitor, "", "", "uplink"}, *parsed);
+}
+
+void UplinkSession::hear(const UplinkMessage& said) {
+  // The far gateway has looked at it; here it is looked at again.
+  const auto parsed = parse_client_message(said.text);
+  const bool is_theirs = said.viewer < (1ULL << kUplinkShift);
+  if (!parsed || !is_theirs || !may_ask(Role::visitor, *parsed, false)) return void(++sessions_.messages_refused);
+  if (!messages_.take(TokenBucket::Clock::now())) {
+    ++sessions_.messages_refused;
+    return answer(said.viewer, encode_error(ReasonWord::too_fast));
   }
-  auto& call = std::get<UplinkCall>(message);
+  sessions_.message({(number_ << kUplinkShift) | said.viewer, Role::visitor, "", "", "uplink"}, *parsed);
+}
+
+void UplinkSession::hear(UplinkCall call) {
+  // From where a caller comes is what the other end says: it decides who shares with whom, and not how much all may.
+  const auto now = TokenBucket::Clock::now();
+  const bool is_within = calls_.take(now) && (call.request.method == "GET" || writes_.take(now));
+  if (!is_within) return say(UplinkReply{call.call, {429, kTooFast, ""}});
+  call.request.address = far_address(call.request.address);
   if (!call.request.target.starts_with("/api/v1")) {  // what does not change: the museum, its map and pictures
     const SiteReply document = owner_.site->get(call.request.target);
     return say(UplinkReply{call.call, {document.status, document.body ? *document.body : std::string{}, ""}});

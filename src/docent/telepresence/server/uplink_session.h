@@ -52,6 +52,8 @@ class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
  private:
   void read();
   void hear(ToMuseum message);
+  void hear(const UplinkMessage& said);
+  void hear(UplinkCall call);
   void say(const FromMuseum& message);
   /// Sends the next thing unless one is being sent.
   void flush();
@@ -67,7 +69,8 @@ class UplinkSession : public std::enable_shared_from_this<UplinkSession> {
   const std::size_t piece_bytes_;
   const std::unique_ptr<WebSocket> line_;  // with compression: it is thin
   boost::asio::steady_timer timer_;
-  std::uint32_t stale_ = 0;  ///< slots that have a newer value
+  TokenBucket messages_, calls_, writes_;  ///< its share of this gateway
+  std::uint32_t stale_ = 0;                ///< slots that have a newer value
   std::size_t last_slot_ = 0;
   std::deque<std::string> answers_;  ///< before slots
   PictureCutter robot_, scene_;

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "docent/telepresence/limits/descriptors.h"
 #include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/server/foxglove_session.h"
 #include "docent/telepresence/server/http_connection.h"
@@ -28,10 +29,23 @@ using asio::ip::tcp;
 
 constexpr std::size_t kGroups = WebServer::kParts;
 constexpr auto kGroupPeriod = std::chrono::milliseconds{10};
-constexpr std::size_t kManyViewers = 100;  // from here on sends are spread over the groups
+constexpr std::size_t kKeptConnections = 100;  // connections, for this computer, proxies and those who have accounts
+constexpr std::size_t kOtherFiles = 300;       // and sockets that the program needs besides connections
+constexpr std::size_t kManyViewers = 100;      // from here on sends are spread over the groups
+
+bool is_this_computer(const std::string& network) { return network == "127.0.0.1" || network == "::/64"; }
 
 bool is_one_of(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+/// As many connections as this process may have.
+WebServerParams within_descriptors(WebServerParams params) {
+  const auto wanted = static_cast<std::size_t>(params.max_connections);
+  const std::size_t allowed = allow_descriptors(wanted + kOtherFiles);
+  const std::size_t most = std::max<std::size_t>(1, allowed - std::min(allowed, kOtherFiles));
+  params.max_connections = static_cast<int>(std::min(wanted, most));
+  return params;
 }
 
 std::vector<std::string> names_of(const WebServerParams& params) {
@@ -66,6 +80,7 @@ struct WebServer::Core {
     sessions.latest = [this](std::size_t slot) { return latest.at(slot); };
     http.connections = &sessions.connections;
     http.desk = hooks.desk;
+    http.take_place = [this](const std::string& address) { return take_place(address); };
     http.origins = params.origins;
     http.proxies = params.proxies;
     http.hosts = Hosts{names_of(params)};
@@ -88,6 +103,8 @@ struct WebServer::Core {
 
   void accept();
   void take(tcp::socket socket);
+  /// null: that address has as many connections as it may have.
+  [[nodiscard]] std::shared_ptr<Place> take_place(const std::string& address);
   /// That login is over: whoever came with it is gone at once, and so is their hand on the knob.
   void end_login(const std::string& login);
   void open_live(tcp::socket socket, HttpRequest request, const Arrival& how);
@@ -143,6 +160,8 @@ Result<void> WebServerParams::validate() const {
   if (send_buffer_bytes < 4096) return fail("web.send_buffer_bytes must be at least 4096");
   if (!(uplink_picture_s >= 0.1)) return fail("web.uplink_picture_s must be at least 0.1");
   if (uplink_picture_bytes_per_s < 100) return fail("web.uplink_picture_bytes_per_s must be at least 100");
+  for (const double rate : {uplink_messages_per_second, uplink_calls_per_second, uplink_writes_per_second})
+    if (!(rate >= 1.0)) return fail("web.uplink_…_per_second must be at least 1");
   if (!(idle_timeout_s >= 1.0)) return fail("web.idle_timeout_s must be at least 1");
   return {};
 }
@@ -161,19 +180,24 @@ void WebServer::Core::accept() {
 }
 
 void WebServer::Core::take(tcp::socket socket) {
-  if (sessions.connections >= static_cast<std::size_t>(params.max_connections)) return;  // it closes
+  const auto most = static_cast<std::size_t>(params.max_connections);
+  if (sessions.connections >= most) return;  // it closes
   beast::error_code error;
   const auto peer = socket.remote_endpoint(error);
   if (error) return;
   // For many others speak a proxy of ours and whatever runs on this computer.
   const std::string address = peer.address().to_string();
-  const bool speaks_for_many = peer.address().is_loopback() || is_one_of(params.proxies, address);
+  const bool speaks_for_many = is_this_computer(network_of(address)) || is_one_of(params.proxies, address);
+  const bool is_nearly_full = sessions.connections + kKeptConnections >= most && most > 2 * kKeptConnections;
+  if (is_nearly_full && !speaks_for_many && !(hooks.desk && hooks.desk->is_staff_from(address))) return;
   std::shared_ptr<Place> place;
-  if (!speaks_for_many) {
-    place = std::make_shared<Place>(places, network_of(address));
-    if (place->taken() > params.connections_of_address) return;
-  }
+  if (!speaks_for_many && !(place = take_place(address))) return;
   std::make_shared<HttpConnection>(http, std::move(socket), std::move(place))->read();
+}
+
+std::shared_ptr<Place> WebServer::Core::take_place(const std::string& address) {
+  auto place = std::make_shared<Place>(places, network_of(address));
+  return place->taken() > params.connections_of_address ? nullptr : place;
 }
 
 void WebServer::Core::end_login(const std::string& login) {
@@ -259,7 +283,7 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const WebServerParams& param
   beast::error_code error;
   const auto address = asio::ip::make_address(params.address, error);
   if (error) return fail(name + ": not an address");
-  auto core = std::make_unique<Core>(params, std::move(site), std::move(hooks));
+  auto core = std::make_unique<Core>(within_descriptors(params), std::move(site), std::move(hooks));
   const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(params.port)};
   core->acceptor.open(endpoint.protocol(), error);
   if (!error) core->acceptor.set_option(asio::socket_base::reuse_address{true}, error);

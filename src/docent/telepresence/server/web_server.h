@@ -29,11 +29,14 @@ struct WebServerParams {
   int send_buffer_bytes = 65536;      ///< of the kernel, for one connection: small, so that old values do not pile up
   int uplink_port = 0;                ///< where an encrypted line to a gateway far away comes in; 0: there is none
   double uplink_picture_s = 5.0;      ///< between two pictures of a camera for a gateway far away
-  int uplink_picture_bytes_per_s = 12000;   ///< of its line, for pictures
-  double idle_timeout_s = 30.0;             ///< a viewer who answers no ping for so long is gone
-  int connections_of_address = 1000;        ///< that are not of this computer; more are closed
-  double messages_of_address = 20.0;        ///< per second, of all visitors who come from one address
-  double message_burst_of_address = 200.0;  ///< likewise at once
+  int uplink_picture_bytes_per_s = 12000;     ///< of its line, for pictures
+  double uplink_messages_per_second = 150.0;  ///< of all who come through the line, whatever its other end says of them
+  double uplink_calls_per_second = 50.0;      ///< likewise, of calls to /api/v1
+  double uplink_writes_per_second = 10.0;     ///< likewise, of those calls that change something
+  double idle_timeout_s = 30.0;               ///< a viewer who answers no ping for so long is gone
+  int connections_of_address = 1000;          ///< that are not of this computer; more are closed
+  double messages_of_address = 20.0;          ///< per second, of all visitors who come from one address
+  double message_burst_of_address = 200.0;    ///< likewise at once
   bool screen_stops = false;  ///< the robot's own screen has a button that stops it; staff let it go on, on /operate
   std::vector<std::string> hosts;    ///< names by which the server may be called, besides localhost, addresses and
                                      ///< the computer's own; behind a proxy that passes on Host: the public name
@@ -55,6 +58,9 @@ struct WebServerParams {
     v("uplink_port", uplink_port);
     v("uplink_picture_s", uplink_picture_s);
     v("uplink_picture_bytes_per_s", uplink_picture_bytes_per_s);
+    v("uplink_messages_per_second", uplink_messages_per_second);
+    v("uplink_calls_per_second", uplink_calls_per_second);
+    v("uplink_writes_per_second", uplink_writes_per_second);
     v("idle_timeout_s", idle_timeout_s);
     v("connections_of_address", connections_of_address);
     v("messages_of_address", messages_of_address);

@@ -331,6 +331,25 @@ TEST_F(WebServerTest, PagesOfOtherSitesMayNotSpeakForTheirReaders) {
   }
 }
 
+TEST_F(WebServerTest, StrangersLeaveConnectionsForThisComputer) {
+  WebServerParams params;
+  params.max_connections = 250;
+  params.connections_of_address = 120;
+  start(params);
+  std::vector<std::unique_ptr<TestClient>> clients;
+  const auto is_served = [&](const char* from) {
+    clients.push_back(std::make_unique<TestClient>(server_->port(), 0, from));
+    clients.back()->send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    return clients.back()->receive();
+  };
+  int served = 0;
+  for (int i = 0; i < 130; ++i) served += is_served("127.0.0.2");
+  EXPECT_EQ(served, 120) << "of one address";
+  for (int i = 0; i < 40; ++i) served += is_served("127.0.0.3");
+  EXPECT_EQ(served, 150) << "a hundred are kept";
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(is_served("127.0.0.1")) << "the robot's own screen, or a proxy";
+}
+
 TEST_F(WebServerTest, APortInUseIsSaid) {
   start();
   WebServerParams params;

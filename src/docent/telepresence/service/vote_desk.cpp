@@ -17,6 +17,10 @@ VoteDesk::VoteDesk(RobotLink& robot, StoreQueue& queue, const museum::Museum& mu
       votes_{std::move(votes)},
       rng_{Rng{seed ^ static_cast<std::uint64_t>(now.nanoseconds)}.stream("votes")},
       show_{std::move(show)} {
+  begin(now);
+}
+
+void VoteDesk::begin(Time now) {
   store([this, round = make_uuid_v7(now, rng_), now] { return votes_->begin(round, now); }, now);
 }
 
@@ -36,7 +40,7 @@ void VoteDesk::take(const VoteMessage& message, Time now, Answer answer) {
                fault_ = stored ? "" : stored.error().message;
                answer(stored ? Reason{} : Reason{ReasonWord::not_stored});
              },
-             now);
+             now, StoreQueue::Of::strangers);
 }
 
 void VoteDesk::see(const docent_msgs::RequestBoard& board, Time now) {
@@ -66,6 +70,7 @@ void VoteDesk::look(Time now) {
           return;
         }
         fault_.clear();
+        if (tally->round.empty()) begin(now);  // there was nobody to begin it with
         show(std::move(*tally), now);
       },
       now);

@@ -37,6 +37,7 @@ class VoteDesk {
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
+  void begin(Time now);
   void store(StoreQueue::Work work, Time now);
   void show(Tally tally, Time now);
 

@@ -58,6 +58,15 @@ TEST_F(VoteDeskTest, TellsTheRobotHowTheVotesStand) {
   EXPECT_EQ(robot_.votes[1].counts, (std::vector<std::uint32_t>{1, 2}));
 }
 
+TEST_F(VoteDeskTest, ARoundThatCouldNotBeBegunIsBegunLater) {
+  ASSERT_TRUE(database_->run("DELETE FROM vote_rounds"));  // as where nobody answered at the start
+  EXPECT_EQ(vote("ada", "quick"), Reason{ReasonWord::not_stored});
+  (void)look();
+  EXPECT_EQ(vote("ada", "quick"), Reason{});
+  ASSERT_TRUE(look());
+  EXPECT_TRUE(is_uuid7(robot_.votes.back().round));
+}
+
 TEST_F(VoteDeskTest, AVoteForNoTourIsRefused) {
   EXPECT_EQ(vote("ada", "nonsense"), (Reason{ReasonWord::no_such_tour, "nonsense"}));
 }

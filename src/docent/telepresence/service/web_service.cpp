@@ -14,6 +14,10 @@ namespace {
 
 constexpr Duration kStorePeriod = std::chrono::seconds{10};
 
+StoreQueue::Of whose(Role role) {
+  return role == Role::kiosk || role == Role::staff ? StoreQueue::Of::ours : StoreQueue::Of::strangers;
+}
+
 RequestSource source_of(Role role) {
   switch (role) {
     case Role::kiosk:
@@ -34,7 +38,7 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
     : museum_{museum},
       viewers_{viewers},
       database_{std::move(parts.store.database)},
-      queue_{*database_, std::move(parts.post)},
+      queue_{*database_, std::move(parts.post), parts.queue},
       max_open_requests_{parts.max_open_requests},
       kept_places_{std::min(parts.kept_places, parts.max_open_requests - 1)},
       max_open_of_address_{parts.max_open_of_address},
@@ -90,7 +94,7 @@ void WebService::take_request(const Caller& caller, const RequestMessage& messag
   wish.target = message.target;
   wish.viewpoint = message.viewpoint;
   wish.language = message.language.empty() && !museum_.languages.empty() ? museum_.languages.front() : message.language;
-  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id));
+  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id), whose(caller.role));
 }
 
 void WebService::take_cancel(const Caller& caller, const CancelMessage& message, Time now) {
@@ -99,7 +103,7 @@ void WebService::take_cancel(const Caller& caller, const CancelMessage& message,
   wish.source = to_text(source_of(caller.role));
   wish.kind = to_text(RequestKind::cancel);
   wish.target = message.request;
-  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id));
+  wishes_.take(std::move(wish), network_of(caller.address), now, answer_for(caller.id, message.id), whose(caller.role));
 }
 
 void WebService::take_vote(const Caller& caller, const VoteMessage& message, Time now) {
@@ -170,6 +174,7 @@ void WebService::look(const PresentHours& hours, std::size_t viewers, Time now) 
   show_if_new(Kept::hours, slots::kHours, encode_hours(hours.mode, hours.is_open));
   votes_.look(now);
   screen_.look(now);
+  wishes_.look(now);
   queue_.look(now);
   look_at_store(now);
 }

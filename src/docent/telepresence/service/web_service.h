@@ -41,7 +41,8 @@ struct HornSound {
 /// What a Web service is made with.
 struct WebServiceParts {
   WebStore store;
-  StoreQueue::Post post;              ///< see StoreQueue; empty: what is stored is stored at once
+  StoreQueue::Post post;  ///< see StoreQueue; empty: what is stored is stored at once
+  StoreQueueParams queue;
   bool is_shared = false;             ///< other gateways write into the same database
   std::size_t max_open_requests{};    ///< of everybody together; more are refused
   std::size_t kept_places{};          ///< of these, for the hall's screen and buttons and for staff

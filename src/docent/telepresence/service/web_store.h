@@ -26,6 +26,7 @@ struct WebStore {
     auto outbox = Outbox::open(**database);
     if (!outbox) return tl::unexpected<Error>(outbox.error());
     auto pending = (*outbox)->pending();
+    if (!pending && (*database)->is_gone()) pending.emplace();  // it is read again and again where others write, too
     if (!pending) return tl::unexpected<Error>(pending.error());
     auto votes = TourVotes::open(**database);
     if (!votes) return tl::unexpected<Error>(votes.error());

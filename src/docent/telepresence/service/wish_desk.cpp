@@ -1,6 +1,7 @@
 #include "docent/telepresence/service/wish_desk.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "docent/messages/conversions.h"
@@ -9,13 +10,22 @@
 namespace docent::telepresence {
 namespace {
 
+constexpr Duration kForTheBoard = std::chrono::seconds{5};
+constexpr std::size_t kToldTogether = 24;  // a late reader of requests keeps 32 (transport's commands)
+
+bool is_of_the_house(const docent_msgs::Request& request) {
+  const auto source = parse<RequestSource>(request.source);
+  return source == RequestSource::kiosk || source == RequestSource::staff;
+}
+
 bool is_cancellation(const docent_msgs::Request& request) {
   return parse<RequestKind>(request.kind) == RequestKind::cancel;
 }
 
 }  // namespace
 
-void WishDesk::take(docent_msgs::Request wish, const std::string& network, Time now, Answer answer) {
+void WishDesk::take(docent_msgs::Request wish, const std::string& network, Time now, Answer answer,
+                    StoreQueue::Of whom) {
   wish.stamp = to_message(now);
   if (!is_cancellation(wish)) asked_from_.emplace(wish.id, network);
   ++storing_;
@@ -27,18 +37,33 @@ void WishDesk::take(docent_msgs::Request wish, const std::string& network, Time 
         *is_new = *put;
         return {};
       },
-      [this, wish, is_new, answer = std::move(answer)](const Result<void>& stored) {
+      [this, wish, is_new, whom, now, answer = std::move(answer)](const Result<void>& stored) {
         --storing_;
         fault_ = stored ? "" : stored.error().message;
-        if (!stored) {
-          asked_from_.erase(wish.id);
-          return answer(ReasonWord::not_stored);
+        if (stored) return was_stored(wish, *is_new, answer);
+        if (whom == StoreQueue::Of::ours) {
+          unstored_.push_back({wish, answer, now});
+          return robot_.tell(wish);
         }
-        if (*is_new) pending_.push_back(wish);
-        robot_.tell(wish);
-        answer({});
+        asked_from_.erase(wish.id);
+        answer(ReasonWord::not_stored);
       },
-      now);
+      now, whom);
+}
+
+void WishDesk::was_stored(const docent_msgs::Request& wish, bool is_new, const Answer& answer) {
+  if (is_new) pending_.push_back(wish);
+  robot_.tell(wish);
+  answer({});
+}
+
+void WishDesk::look(Time now) {
+  while (!unstored_.empty() && now - unstored_.front().since > kForTheBoard) {
+    const Unstored lost = std::move(unstored_.front());
+    unstored_.erase(unstored_.begin());
+    asked_from_.erase(lost.wish.id);
+    lost.answer(ReasonWord::not_stored);
+  }
 }
 
 void WishDesk::see(const docent_msgs::RequestBoard& board, Time now) {
@@ -54,10 +79,17 @@ void WishDesk::see(const docent_msgs::RequestBoard& board, Time now) {
     done.insert(entry.request.id);
   }
   // A cancellation is seen in the state of what it cancels.
-  for (const auto& request : pending_) {
-    if (is_cancellation(request) && closed.contains(request.target)) done.insert(request.id);
-  }
+  const auto is_done = [&](const docent_msgs::Request& request) {
+    return done.contains(request.id) || (is_cancellation(request) && closed.contains(request.target));
+  };
+  for (const auto& request : pending_)
+    if (is_done(request)) done.insert(request.id);
   delivered(done, now);
+  const auto there = std::stable_partition(unstored_.begin(), unstored_.end(),
+                                           [&](const Unstored& one) { return !is_done(one.wish); });
+  const std::vector<Unstored> kept{std::make_move_iterator(there), std::make_move_iterator(unstored_.end())};
+  unstored_.erase(there, unstored_.end());
+  for (const Unstored& one : kept) one.answer({});
 }
 
 void WishDesk::delivered(const std::set<std::string>& ids, Time now) {
@@ -116,6 +148,7 @@ void WishDesk::resend(Time now) {
           fault_ = read.error().message;
           return;
         }
+        fault_.clear();
         // What another gateway took is told at once; of what was delivered meanwhile the table did not know yet.
         for (const auto& request : *found) {
           const auto is_it = [&](const auto& known) { return known.id == request.id; };
@@ -141,7 +174,13 @@ void WishDesk::tell_all(Time now) {
     if (is_cancellation(request) && is_old) given_up.insert(request.id);
   }
   delivered(given_up, now);
-  for (const auto& request : pending_) robot_.tell(request);
+  // Of a burst the robot hears the last ones alone: the oldest are told, and after them all of the hall and of staff.
+  std::size_t others = 0;
+  for (const auto& request : pending_)
+    if (!is_of_the_house(request) && others++ < kToldTogether) robot_.tell(request);
+  for (const auto& request : pending_)
+    if (is_of_the_house(request)) robot_.tell(request);
+  for (const auto& one : unstored_) robot_.tell(one.wish);
 }
 
 }  // namespace docent::telepresence

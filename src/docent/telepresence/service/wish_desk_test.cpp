@@ -88,6 +88,49 @@ TEST_F(WishDeskTest, AWishThatCannotBeStoredIsNotTold) {
   EXPECT_FALSE(desk_->fault().empty());
 }
 
+TEST_F(WishDeskTest, AWishOfTheHallThatCannotBeStoredIsAcknowledgedOnceItIsOnTheBoard) {
+  ASSERT_TRUE(database_->run("DROP TABLE outbox"));
+  std::vector<Reason> answered;
+  const auto ask = [&](docent_msgs::Request wish) {
+    desk_->take(
+        std::move(wish), "", now_, [&](const Reason& why_not) { answered.push_back(why_not); }, StoreQueue::Of::ours);
+  };
+  ask(wish_for("a", "sputnik"));
+  ask(wish_for("b", "sputnik"));
+  ask(wish_for("c", "x", RequestKind::cancel));
+  EXPECT_TRUE(answered.empty()) << "nothing is kept yet";
+  EXPECT_EQ(robot_.requests.size(), 3U);
+  EXPECT_EQ(desk_->waiting(), 3U);
+  EXPECT_EQ(resent(), (Ids{"a", "b", "c"}));
+  see(board_of({{"a", RequestStatus::queued}, {"x", RequestStatus::cancelled}}));
+  EXPECT_EQ(answered, (std::vector<Reason>{{}, {}}));
+  EXPECT_EQ(resent(), Ids{"b"});
+  now_ = now_ + seconds(4.0);
+  desk_->look(now_);
+  EXPECT_EQ(answered.size(), 2U);
+  now_ = now_ + seconds(2.0);
+  desk_->look(now_);
+  ASSERT_EQ(answered.size(), 3U);
+  EXPECT_EQ(answered[2], Reason{ReasonWord::not_stored});
+  EXPECT_EQ(resent(), Ids{});
+}
+
+TEST_F(WishDeskTest, TheHallIsToldAfterACrowdWhoseRestComesLater) {
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(take(wish_for("w" + std::to_string(i), "sputnik")), Reason{});
+  auto hall = wish_for("hall", "sputnik");
+  hall.source = to_text(RequestSource::kiosk);
+  EXPECT_EQ(take(hall), Reason{});
+  for (int i = 100; i < 200; ++i) EXPECT_EQ(take(wish_for("w" + std::to_string(i), "sputnik")), Reason{});
+  const Ids told = resent();
+  EXPECT_LE(told.size(), 32U) << "as many as a late reader keeps";
+  EXPECT_EQ(told.front(), "w0");
+  EXPECT_EQ(told.back(), "hall");
+  std::vector<std::pair<std::string, RequestStatus>> entries;
+  for (const std::string& id : told) entries.emplace_back(id, RequestStatus::queued);
+  see(board_of(entries));
+  EXPECT_EQ(resent().front(), "w24") << "and then the next ones";
+}
+
 TEST_F(WishDeskTest, ACancellationIsSeenInWhatItCancels) {
   see(board_of({{"a", RequestStatus::queued}}));
   EXPECT_EQ(take(wish_for("c", "a", RequestKind::cancel)), Reason{});

@@ -28,8 +28,8 @@ bool Database::is_shared(const std::string& where) {
   return where.starts_with("postgresql://") || where.starts_with("postgres://");
 }
 
-Result<std::unique_ptr<Database>> Database::open(const std::string& where) {
-  return is_shared(where) ? open_postgres(where) : open_sqlite(where);
+Result<std::unique_ptr<Database>> Database::open(const std::string& where, Try when) {
+  return is_shared(where) ? open_postgres(where, when) : open_sqlite(where);
 }
 
 Result<void> Database::in_transaction(const std::function<Result<void>()>& work) {

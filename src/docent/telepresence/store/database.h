@@ -47,9 +47,12 @@ struct QueryResult {
 /// when it returns, a transaction when `commit` does. One thread at a time.
 class Database {
  public:
+  /// When a server is tried first: at once, or with the first statement, since nobody answered there a moment ago.
+  enum class Try { now, later };
+
   /// @param where  "postgresql://…", or the path of a file, which is made if it is not there; a damaged one is mended,
-  /// see `notice`
-  [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::string& where);
+  /// see `notice`. A server that nobody answers at is opened, too: its statements fail until somebody does
+  [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::string& where, Try when = Try::now);
   [[nodiscard]] static bool is_shared(const std::string& where);  ///< a server, not a file
 
   Database() = default;
@@ -76,6 +79,9 @@ class Database {
   virtual void set_patience(Duration /*patience*/) {}
   /// Whether nobody answered the last statement: the next one would wait as long.
   [[nodiscard]] virtual bool is_gone() const { return false; }
+  /// Where a server is gone: does that work before the next statement that somebody answers, which fails as long as the
+  /// work does. False: it is not gone, or is no server, and nothing was put off.
+  [[nodiscard]] virtual bool put_off(std::function<Result<void>()> /*work*/) { return false; }
 
   /// All that `work` does, or nothing when it fails. Within `work` another call is part of the same transaction.
   [[nodiscard]] Result<void> in_transaction(const std::function<Result<void>()>& work);

@@ -237,8 +237,43 @@ TEST_P(Store, AServerThatHangsIsGoneAfterThePatienceAndUsedAgainWhenItAnswers) {
   ASSERT_TRUE(put) << put.error().message;
 }
 
-TEST(StoreAddress, ThatNobodyAnswersIsAFault) {
-  EXPECT_FALSE(Database::open("postgresql:///nothing?host=/nowhere"));
+TEST_P(Store, AServerThatWasGoneAtTheStartIsTakenUpWhenItAnswers) {
+  if (GetParam() != Kind::server) GTEST_SKIP() << "of servers alone";
+  const Migration steps[] = {{"one", "CREATE TABLE a (x BIGINT)"}};
+  for (const Database::Try when : {Database::Try::now, Database::Try::later}) {
+    ASSERT_TRUE(database_->run_script("DROP SCHEMA public CASCADE; CREATE SCHEMA public"));
+    ASSERT_TRUE(postgres->hang(true));
+    const auto begun = std::chrono::steady_clock::now();
+    auto late = Database::open(where_, when);
+    ASSERT_TRUE(late) << late.error().message;
+    EXPECT_TRUE((*late)->is_gone());
+    EXPECT_TRUE(migrate(**late, "part", steps)) << "put off";
+    EXPECT_FALSE((*late)->run("SELECT count(*) FROM a"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds{4});
+    ASSERT_TRUE(postgres->hang(false));
+    Result<QueryResult> put = fail("not tried");
+    for (int i = 0; i < 100 && !put; ++i) {
+      put = (*late)->in_transaction([&] { return done((*late)->run("INSERT INTO a (x) VALUES (1)")); })
+                ? (*late)->run("SELECT count(*) FROM a")
+                : Result<QueryResult>{fail("not yet")};
+      if (!put) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+    ASSERT_TRUE(put) << put.error().message;
+    EXPECT_EQ(put->rows.at(0).number(0), 1);
+    EXPECT_FALSE((*late)->put_off([] { return Result<void>{}; })) << "somebody answers";
+  }
+}
+
+TEST(StoreAddress, WhereNobodyAnswersEachStatementFails) {
+  auto nobody = Database::open("postgresql:///nothing?host=/nowhere");
+  ASSERT_TRUE(nobody);
+  EXPECT_TRUE((*nobody)->is_gone());
+  const auto asked = (*nobody)->run("SELECT 1");
+  ASSERT_FALSE(asked);
+  EXPECT_NE(asked.error().message.find("PostgreSQL: "), std::string::npos) << asked.error().message;
+  const Migration bad[] = {{"one", "CREATE nonsense"}};
+  EXPECT_TRUE(migrate(**nobody, "part", bad)) << "put off";
+  EXPECT_FALSE(Database::open("postgresql://docent@[nowhere/docent")) << "that is no address";
   EXPECT_FALSE(Database::open("/dev/null/at/all/web.sqlite"));
 }
 

@@ -4,7 +4,9 @@
 
 namespace docent::telepresence {
 
-Result<void> migrate(Database& database, const std::string& part, std::span<const Migration> migrations) {
+namespace {
+
+Result<void> bring_forward(Database& database, const std::string& part, std::span<const Migration> migrations) {
   // Whoever comes second waits here: the row of the part is written first, and so locked, in each transaction.
   auto made = database.run_script("CREATE TABLE IF NOT EXISTS parts (name TEXT PRIMARY KEY, version BIGINT NOT NULL)");
   const auto found = database.run("SELECT version FROM parts WHERE name = $1", {part});
@@ -34,6 +36,16 @@ Result<void> migrate(Database& database, const std::string& part, std::span<cons
     if (!done) return done;
   }
   return {};
+}
+
+}  // namespace
+
+Result<void> migrate(Database& database, const std::string& part, std::span<const Migration> migrations) {
+  auto done = bring_forward(database, part, migrations);
+  if (done) return done;
+  const bool waits =
+      database.put_off([&database, part, migrations] { return bring_forward(database, part, migrations); });
+  return waits ? Result<void>{} : done;
 }
 
 }  // namespace docent::telepresence

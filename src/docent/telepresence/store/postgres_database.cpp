@@ -8,6 +8,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <deque>
 #include <utility>
 
 namespace docent::telepresence {
@@ -87,8 +88,10 @@ bool wait_for(PGconn* connection, short what, Clock::time_point until) {
 
 class PostgresDatabase final : public Database {
  public:
-  PostgresDatabase(std::string address, Connection connection)
-      : address_{std::move(address)}, connection_{std::move(connection)} {}
+  PostgresDatabase(std::string address, Try when) : address_{std::move(address)} {
+    if (when == Try::now) connection_ = connect(address_);
+    if (is_gone()) rests_until_ = Clock::now() + kRests;
+  }
 
   [[nodiscard]] Result<QueryResult> run(const std::string& statement, const std::vector<Value>& arguments) override {
     std::vector<std::string> texts(arguments.size());
@@ -110,18 +113,23 @@ class PostgresDatabase final : public Database {
       }
       values[i] = texts[i].c_str();
     }
-    if (auto live = reconnect(); !live) return tl::unexpected<Error>(live.error());
+    if (auto live = make_ready(); !live) return tl::unexpected<Error>(live.error());
     return answer_to(PQsendQueryParams(connection_.get(), statement.c_str(), static_cast<int>(values.size()),
                                        types.data(), values.data(), nullptr, nullptr, 0));
   }
   [[nodiscard]] Result<void> run_script(const std::string& statements) override {
-    if (auto live = reconnect(); !live) return live;
+    if (auto live = make_ready(); !live) return live;
     auto answer = answer_to(PQsendQuery(connection_.get(), statements.c_str()));
     if (!answer) return tl::unexpected<Error>(answer.error());
     return {};
   }
   void set_patience(Duration patience) override { patience_ = patience; }
   [[nodiscard]] bool is_gone() const override { return PQstatus(connection_.get()) != CONNECTION_OK; }
+  [[nodiscard]] bool put_off(std::function<Result<void>()> work) override {
+    if (!is_gone()) return false;
+    put_off_.push_back(std::move(work));
+    return true;
+  }
 
  protected:
   [[nodiscard]] const char* begin_statement() const override { return "BEGIN"; }
@@ -129,11 +137,27 @@ class PostgresDatabase final : public Database {
  private:
   [[nodiscard]] Result<void> reconnect() {
     if (!is_gone()) return {};
-    if (Clock::now() < rests_until_) return fail("PostgreSQL: does not answer");
+    if (Clock::now() < rests_until_) return fail(why_gone());
     connection_ = connect(address_);
     if (!is_gone()) return {};
     rests_until_ = Clock::now() + kRests;
-    return fail("PostgreSQL: " + one_line(PQerrorMessage(connection_.get())));
+    return fail(why_gone());
+  }
+  [[nodiscard]] std::string why_gone() const {
+    const std::string why = connection_ ? one_line(PQerrorMessage(connection_.get())) : std::string{};
+    return "PostgreSQL: " + (why.empty() ? "does not answer" : why);
+  }
+  /// Connects, and does what was put off until somebody answers.
+  [[nodiscard]] Result<void> make_ready() {
+    if (auto live = reconnect(); !live || is_catching_up_) return live;
+    is_catching_up_ = true;
+    Result<void> done;
+    while (done && !put_off_.empty()) {
+      done = put_off_.front()();
+      if (done) put_off_.pop_front();
+    }
+    is_catching_up_ = false;
+    return done;
   }
   /// To what was sent, within the patience; a server that does not answer in time is left.
   [[nodiscard]] Result<QueryResult> answer_to(int sent) {
@@ -178,18 +202,23 @@ class PostgresDatabase final : public Database {
   }
 
   const std::string address_;
-  Connection connection_;
+  Connection connection_{nullptr, &PQfinish};
+  std::deque<std::function<Result<void>()>> put_off_;
+  bool is_catching_up_ = false;
   Clock::duration patience_ = kPatienceAtStart;
   Clock::time_point rests_until_;  ///< after a try that found nobody
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Database>> open_postgres(const std::string& address) {
-  Connection connection = connect(address);
-  if (PQstatus(connection.get()) != CONNECTION_OK)
-    return fail("PostgreSQL: " + one_line(PQerrorMessage(connection.get())));
-  return std::make_unique<PostgresDatabase>(address, std::move(connection));
+Result<std::unique_ptr<Database>> open_postgres(const std::string& address, Database::Try when) {
+  char* why = nullptr;
+  PQconninfoOption* const parts = PQconninfoParse(address.c_str(), &why);
+  const std::string fault = why != nullptr ? one_line(why) : "that is no address";
+  PQfreemem(why);
+  if (parts == nullptr) return fail("PostgreSQL: " + fault);
+  PQconninfoFree(parts);
+  return std::make_unique<PostgresDatabase>(address, when);
 }
 
 }  // namespace docent::telepresence

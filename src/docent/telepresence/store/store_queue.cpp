@@ -7,16 +7,16 @@ namespace docent::telepresence {
 
 StoreQueue::StoreQueue(Database& database, Post post, const StoreQueueParams& params)
     : database_{database}, post_{std::move(post)}, params_{params}, self_{std::make_shared<StoreQueue*>(this)} {
-  if (post_) thread_ = std::thread{[this, queue = std::weak_ptr{self_}] { run(queue); }};
+  if (has_thread()) thread_ = std::thread{[this, queue = std::weak_ptr{self_}] { run(queue); }};
 }
 
-void StoreQueue::put(Work work, Done done, Time now) {
-  if (!post_) return done(database_.in_transaction(work));
+void StoreQueue::put(Work work, Done done, Time now, Of whom) {
+  if (!has_thread()) return done(database_.in_transaction(work));
   auto job = std::make_shared<Job>(Job{std::move(work), std::move(done), now, {}});
   bool is_full = false;
   {
     const std::scoped_lock lock{mutex_};
-    is_full = waiting_.size() >= params_.most_waiting;
+    is_full = waiting_.size() >= params_.most_waiting + (whom == Of::ours ? params_.kept : 0);
     if (!is_full) waiting_.push_back(job);
   }
   if (is_full) return tell(*job, fail("too much waits to be stored"));

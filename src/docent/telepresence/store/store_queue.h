@@ -16,9 +16,11 @@
 namespace docent::telepresence {
 
 struct StoreQueueParams {
-  std::size_t most_waiting = 1000;                      ///< more are refused: a database that is slow fills no memory
-  std::size_t most_together = 200;                      ///< that are committed at once
+  std::size_t most_waiting = 1000;  ///< of strangers; more are refused: a database that is slow fills no memory
+  std::size_t kept = 200;           ///< besides these, for the hall's screen, for staff and for what gateways note
+  std::size_t most_together = 200;  ///< that are committed at once
   Duration patience = std::chrono::milliseconds{2500};  ///< then whoever waits is told that it is not stored
+  bool at_once = false;  ///< crippled, for evaluation: the caller's thread stores, each thing by itself
 };
 
 /// What waits for a disk or for a server waits here, on a thread of its own, and nothing else waits with it. All that
@@ -35,6 +37,8 @@ class StoreQueue {
   using Done = std::function<void(const Result<void>&)>;
   using Post = std::function<void(std::function<void()>)>;
 
+  enum class Of { strangers, ours };
+
   /// @param database  which the work is done in; outlives it
   /// @param post  has something done on the caller's thread; empty: there is no thread, and `put` does the work itself
   StoreQueue(Database& database, Post post, const StoreQueueParams& params = {});
@@ -42,7 +46,7 @@ class StoreQueue {
   StoreQueue& operator=(const StoreQueue&) = delete;
   ~StoreQueue() { finish(); }
 
-  void put(Work work, Done done, Time now);
+  void put(Work work, Done done, Time now, Of whom = Of::ours);
   /// Now and then: tells those who wait for too long that it is not stored. It may still be, later.
   void look(Time now);
   /// Does what waits, and ends the thread. What is done then is told to nobody. @pre nothing is put any more
@@ -59,6 +63,7 @@ class StoreQueue {
   };
   using Jobs = std::vector<std::shared_ptr<Job>>;
 
+  [[nodiscard]] bool has_thread() const { return post_ && !params_.at_once; }
   void run(const std::weak_ptr<StoreQueue*>& queue);
   void do_all(const Jobs& jobs);
   void tell(const Jobs& jobs);

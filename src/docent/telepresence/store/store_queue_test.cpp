@@ -142,7 +142,7 @@ TEST_F(StoreQueueTest, WhoeverWaitsForTooLongIsToldOnce) {
 }
 
 TEST_F(StoreQueueTest, TooManyAreRefused) {
-  make({.most_waiting = 2});
+  make({.most_waiting = 2, .kept = 0});
   hold_up();
   for (const char* name : {"a", "b", "c"}) put(name);
   EXPECT_EQ(told_, Names{"c: too much waits to be stored"});
@@ -172,6 +172,26 @@ TEST_F(StoreQueueTest, WithoutAThreadItIsDoneAtOnce) {
   bool is_told = false;
   queue.put([] { return Result<void>{}; }, [&](const Result<void>& done) { is_told = done.has_value(); }, now_);
   EXPECT_TRUE(is_told);
+}
+
+TEST_F(StoreQueueTest, StrangersLeavePlacesForTheOthers) {
+  make({.most_waiting = 3, .kept = 2, .most_together = 1});
+  hold_up();
+  int refused = 0;
+  const auto put_of = [&](StoreQueue::Of whom) {
+    bool is_refused = false;
+    queue_->put([] { return Result<void>{}; }, [&](const Result<void>& stored) { is_refused = !stored; }, now_, whom);
+    refused += is_refused;
+    return !is_refused;
+  };
+  while (put_of(StoreQueue::Of::strangers)) {
+  }
+  EXPECT_TRUE(put_of(StoreQueue::Of::ours));
+  EXPECT_TRUE(put_of(StoreQueue::Of::ours));
+  EXPECT_FALSE(put_of(StoreQueue::Of::ours)) << "and they are bounded, too";
+  EXPECT_EQ(refused, 2);
+  let_go();
+  queue_->finish();
 }
 
 }  // namespace

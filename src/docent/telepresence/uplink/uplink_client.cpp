@@ -241,8 +241,8 @@ Result<std::string> UplinkClient::fetch(const std::string& path) {
 
 void UplinkClient::close() { impl_->close(); }
 
-void UplinkClient::admit(std::string /*token*/, std::function<void(std::optional<Admission>)> answer) {
-  answer(std::nullopt);  // who steers must be nearer than this
+void UplinkClient::admit(std::string /*token*/, std::function<void(Admitted)> answer) {
+  answer(std::optional<Admission>{});  // who steers must be nearer than this
 }
 
 }  // namespace docent::telepresence

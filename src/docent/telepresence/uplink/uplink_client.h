@@ -36,7 +36,7 @@ class UplinkClient final : public ApiDesk {
   /// Any thread. False: the line is down, too much waits, or it is too long for the other end.
   bool say(const ToMuseum& message);
   void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
-  void admit(std::string token, std::function<void(std::optional<Admission>)> answer) override;
+  void admit(std::string token, std::function<void(Admitted)> answer) override;
   void close() override;
 
  private:

@@ -28,6 +28,7 @@ struct AblationParams {
   bool without_battery_watch = false;    ///< mission: it never hears of its battery
   bool forgets_tasks = false;            ///< mission: a restart forgets what was under way, and keeps the requests
   bool without_stand_in = false;         ///< mission: nobody decides for a GOLOG program that has failed
+  bool stores_at_once = false;           ///< web: what is stored is stored on the thread that takes the stop
   bool never_explores = false;           ///< attract: does what it knows best and nothing else
   bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
   template <class V>
@@ -53,6 +54,7 @@ struct AblationParams {
     v("without_battery_watch", without_battery_watch);
     v("forgets_tasks", forgets_tasks);
     v("without_stand_in", without_stand_in);
+    v("stores_at_once", stores_at_once);
     v("never_explores", never_explores);
     v("ignores_reward", ignores_reward);
   }

@@ -15,6 +15,7 @@
 #include "docent/task_control/golog_planner/golog_planner.h"
 #include "docent/task_control/mission/mission.h"
 #include "docent/task_control/tour_scheduler/scheduler_params.h"
+#include "docent/telepresence/store/store_queue.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::apps::ablations {
@@ -69,6 +70,7 @@ void amend_guiding(robot::Amendments& amendments, const AblationParams& params) 
     if (params.forgets_requests) memory.schedule = {};
     if (params.forgets_tasks) forget_tasks(memory);
   });
+  amendments.add<telepresence::StoreQueueParams>([params](auto& queue) { queue.at_once = params.stores_at_once; });
   amendments.add<interaction::AttractionParams>([params](auto& learner) {
     learner.choice.never_explores = params.never_explores;
     learner.ignores_reward = params.ignores_reward;

@@ -13,6 +13,7 @@
 #include "docent/task_control/golex/executive_params.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
 #include "docent/task_control/mission/mission.h"
+#include "docent/telepresence/store/store_queue.h"
 #include "docent/transport/virtual_time_bus.h"
 
 namespace docent::apps::ablations {
@@ -34,6 +35,7 @@ TEST(Ablations, WithoutASwitchEveryPartIsAsARobotHasIt) {
   EXPECT_FALSE(amended<people::PeopleFinderParams>(none).keeps_all);
   const auto executive = amended<task_control::ExecutiveParams>(none);
   EXPECT_TRUE(executive.ladder.active && executive.ladder.asks);
+  EXPECT_FALSE(amended<telepresence::StoreQueueParams>(none).at_once);
   EXPECT_EQ(executive.max_drive_s, task_control::ExecutiveParams{}.max_drive_s);
   EXPECT_TRUE(amended<task_control::SchedulerParams>(none).by_travel);
   EXPECT_TRUE(amended<task_control::GologPlannerParams>(none).has_stand_in);
@@ -52,7 +54,8 @@ TEST(Ablations, ASwitchChangesItsParameter) {
   params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people = params.without_ladder =
       params.without_moods = true;
   params.never_gives_up = params.serves_by_arrival = params.without_stand_in = true;
-  params.never_explores = params.ignores_reward = true;
+  params.never_explores = params.ignores_reward = params.stores_at_once = true;
+  EXPECT_TRUE(amended<telepresence::StoreQueueParams>(params).at_once);
   const auto avoider = amended<collision_avoidance::AvoiderParams>(params);
   EXPECT_TRUE(!avoider.watches && avoider.blind_to_people);
   EXPECT_EQ(avoider.odometry.margin, 0.0);

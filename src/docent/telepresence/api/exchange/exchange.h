@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "docent/base/result.h"
+
 // Between the Web server, which knows HTTP and nobody's name, and the desk that answers /api/v1 (api/).
 
 namespace docent::telepresence {
@@ -41,6 +43,9 @@ struct Admission {
   std::string login;  ///< which of their logins, as `ended` names it
 };
 
+/// nullopt: it is no operator's login. Error: nobody can be asked now.
+using Admitted = Result<std::optional<Admission>>;
+
 /// Answers from threads of its own: what it is asked may wait for a disk.
 class ApiDesk {
  public:
@@ -50,8 +55,10 @@ class ApiDesk {
   virtual ~ApiDesk() = default;
   /// Any thread. `answer` is called once, by whichever thread, also when the desk is full.
   virtual void take(ApiRequest request, std::function<void(ApiReply)> answer) = 0;
-  /// Whose login it is when that is an operator's, else nullopt.
-  virtual void admit(std::string token, std::function<void(std::optional<Admission>)> answer) = 0;
+  /// Whose login it is.
+  virtual void admit(std::string token, std::function<void(Admitted)> answer) = 0;
+  /// Whether somebody with an account was let in from there before. Any thread.
+  [[nodiscard]] virtual bool is_staff_from(const std::string& /*address*/) const { return false; }
   /// Told on any thread which logins are over. Once this returns, the one before is told nothing more. @pre returns
   /// soon
   virtual void when_ended(std::function<void(const std::string& login)> /*told*/) {}
