@@ -56,11 +56,7 @@ class MotionCheck {
   }
 
  private:
-  struct Share {
-    int compared = 0;
-    double agrees = 0.0;
-  };
-  [[nodiscard]] Share share_of(const SweepView& view, const Pose2& now_from_then);
+  [[nodiscard]] Agreement share_of(const SweepView& view, const Pose2& now_from_then);
   [[nodiscard]] Finding compare(const SweepView& view, bool may_be_late);
   [[nodiscard]] Pose2 now_from_then_if_late(const SweepView& view, double lag) const;
   [[nodiscard]] bool would_late_ones_differ(const SweepView& view, const Pose2& by_odometry, double agrees);

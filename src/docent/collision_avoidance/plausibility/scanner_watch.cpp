@@ -47,6 +47,7 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       map_{std::move(map), params.map},
       motion_{params.motion},
       repeats_{params.repeats},
+      old_{params.old},
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
@@ -84,6 +85,7 @@ void ScannerWatch::follow_mount(const SensorSweep& sweep) {
   lies_ = 0;
   before_.reset();
   forget_places();
+  old_.forget();
   word_ = {.broken = sweep.stamp, .remounted = sweep.stamp};
 }
 
@@ -266,10 +268,14 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
   if (is_old) walls_ = walls_of(view);
 }
 
-void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (form_.is_covered) return;  // whoever stands before it gives the same reading everywhere, again and again
-  if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
+  if (repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+  const auto age = old_.add(view, sweep.base_from_sensor);
+  if (old_.is_refuted() && lie_ && lie_->is_late) acquit();
+  if (age)
+    convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
@@ -385,6 +391,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
   if (!is_motion_known) {
     motion_.forget();
+    old_.forget();
     before_.reset();
     walls_.reset();
     lies_ = 0;
@@ -402,7 +409,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
       near_.hear(view, rings_.unanswered(view, rings),
                  can_be_too_near(sweep, std::max(sweep.min_range, near_.blind_within()), limits_));
     }
-    judge_repeats(view, sweep, odom_from_base);
+    judge_age(view, sweep, odom_from_base);
     judge_onset(view, others);
     judge_motion(view);
     judge_by_map(view, others);

@@ -12,6 +12,7 @@
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
 #include "docent/collision_avoidance/plausibility/near_things.h"
+#include "docent/collision_avoidance/plausibility/old_sweeps.h"
 #include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
 #include "docent/collision_avoidance/plausibility/ring_check.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
@@ -23,6 +24,7 @@ struct ScannerWatchParams {
   SweepFormParams form{};
   RangeLawParams law{};
   RepeatedSweepsParams repeats{};
+  OldSweepsParams old{};
   BlindSectorsParams sectors{};
   NearThingsParams near{};
   MotionCheckParams motion{};
@@ -133,7 +135,7 @@ class ScannerWatch {
   [[nodiscard]] Verdict verdict(const RangeLaw& law, Time since, std::span<const Word> others) const;
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
-  void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
@@ -157,6 +159,7 @@ class ScannerWatch {
   MapCheck map_;
   MotionCheck motion_;
   RepeatedSweeps repeats_;
+  OldSweeps old_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;
