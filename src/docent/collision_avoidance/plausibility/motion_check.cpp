@@ -84,7 +84,7 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
   return agrees ? Finding::in_order : Finding::nothing;
 }
 
-MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
+MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late, bool do_turns_prove) {
   trail_.push_back({view.stamp, view.odom_from_sensor});
   while (view.stamp - trail_.front().stamp > seconds(kTrail)) trail_.pop_front();
   if (!from_) {
@@ -103,8 +103,8 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
     compared_ = view.stamp;
     compared_at_ = view.odom_from_sensor;
     finding = count(compare(view, may_be_late));
-    if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
-      finding = Finding::nothing;
+    const bool is_proof = way >= params_.proves_way || (do_turns_prove && turn >= params_.proves_turn);
+    if (finding == Finding::in_order && !is_proof) finding = Finding::nothing;
   }
   const bool is_pending = last_ != Finding::nothing && last_ != Finding::in_order && row_ < params_.sure;
   if (way > params_.farthest || turn > 2.0 * params_.proves_turn ||

@@ -43,7 +43,8 @@ class MotionCheck {
   enum class Finding { nothing, in_order, too_long, late };
   /// One sweep. O(samples * explanations) where something does not fit, else O(samples). @returns what is sure
   /// @param may_be_late  the sweeps are in order only where late ones would look otherwise
-  Finding add(const SweepView& view, bool may_be_late = false);
+  /// @param do_turns_prove  of factors, which no turn on the spot shows, something else would tell
+  Finding add(const SweepView& view, bool may_be_late = false, bool do_turns_prove = true);
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.

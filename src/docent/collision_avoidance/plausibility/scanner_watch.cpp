@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
-
 namespace docent::collision_avoidance {
 namespace {
 
@@ -17,24 +15,6 @@ BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSwee
   const auto stride = static_cast<std::size_t>(std::lround(view.bearing_step / sweep.bearing_step));
   const bool is_last = samples.end == view.ranges.size();
   return {samples.first * stride, is_last ? sweep.ranges.size() : samples.end * stride};
-}
-
-/// A view of what is wider than a person and straight.
-SweepView walls_of(const SweepView& view) {
-  std::vector<Point2> places;
-  std::vector<double> ranges;
-  std::vector<std::size_t> samples;
-  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
-    if (!view.met(i)) continue;
-    places.push_back(view.place(i));
-    ranges.push_back(static_cast<double>(view.ranges[i]));
-    samples.push_back(i);
-  }
-  const std::vector<bool> straight = on_straight_pieces(places, ranges, view.bearing_step);
-  SweepView walls = view;
-  for (std::size_t k = 0; k < samples.size(); ++k)
-    if (!straight[k]) walls.ranges[samples[k]] = kNoReading;
-  return walls;
 }
 
 }  // namespace
@@ -48,6 +28,7 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       motion_{params.motion},
       repeats_{params.repeats},
       old_{params.old},
+      bent_walls_{params.walls},
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
@@ -279,7 +260,7 @@ void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, co
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
-  switch (motion_.add(view, lie_ && lie_->is_late)) {
+  switch (motion_.add(view, lie_ && lie_->is_late, has_ring_)) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();
@@ -290,9 +271,6 @@ void ScannerWatch::judge_motion(const SweepView& view) {
               view.stamp);
       break;
     }
-    case MotionCheck::Finding::late:
-      // Wheels that slip look the same: old sweeps are known by their repetition, delays by `calibrate`.
-      break;
     case MotionCheck::Finding::in_order:
       if (!lie_) {
         is_proven_ = true;
@@ -300,9 +278,24 @@ void ScannerWatch::judge_motion(const SweepView& view) {
         acquit();
       }
       break;
+    case MotionCheck::Finding::late:  // or wheels that slip
     case MotionCheck::Finding::nothing:
       break;
   }
+}
+
+void ScannerWatch::judge_walls(const SweepView& view) {
+  const auto offset = bent_walls_.add(view);
+  if (lie_ && lie_->by == Lie::By::walls && bent_walls_.are_straight()) acquit();
+  const bool fits_map = word_.fits_map != Time{} && view.stamp - word_.fits_map < seconds(params_.silence_map);
+  if (!offset || fits_map) return;
+  RangeLaw law;
+  law.offset = *offset;
+  if (rings_.contradicts(law, {})) return;
+  convict({.what = "the distances of the " + name_ + " are " + to_words(law) + ": walls are bent",
+           .by = Lie::By::walls,
+           .law = law},
+          view.stamp);
 }
 
 bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const {
@@ -369,6 +362,12 @@ void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Findin
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   const bool is_nothing_to_believe =
       lie_ || form_fault_ == FormFault::units || (form_.is_silent && !is_silence_explained_);
+  if (lie_ && form_fault_ == FormFault::none && !has_ring_ && is_tried(view.stamp)) {
+    // Nothing else sees where it creeps.
+    const double share = lie_->law.scale > 1.0 ? params_.trusts / lie_->law.scale : 1.0;
+    for (float& range : sweep.ranges) range *= static_cast<float>(share);
+    return;
+  }
   if (is_nothing_to_believe) {
     std::fill(sweep.ranges.begin(), sweep.ranges.end(), kNoReading);
     return;
@@ -387,6 +386,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   follow_mount(sweep);
   newest_ = sweep.stamp;
+  has_ring_ = has_ring_ || !rings.empty();
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
   if (!is_motion_known) {
@@ -412,6 +412,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     judge_age(view, sweep, odom_from_base);
     judge_onset(view, others);
     judge_motion(view);
+    judge_walls(view);
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);
     if (!form_.is_silent && !lie_) look_for_walls(view);

@@ -8,6 +8,7 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/plausibility/bent_walls.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
@@ -25,13 +26,16 @@ struct ScannerWatchParams {
   RangeLawParams law{};
   RepeatedSweepsParams repeats{};
   OldSweepsParams old{};
+  BentWallsParams walls{};
   BlindSectorsParams sectors{};
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
   RingCheckParams rings{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
-  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out
+  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
+  double alone_speed = 0.1;      ///< [m/s] likewise, without sonars: a factor shows after 0.3 m of way
+  double trusts = 0.8;           ///< of what a scanner that is tried should say by its law
   double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
   double stands = 8.0;           ///< [s] after the last sign of a lie, before that,
   double stands_briefly = 1.0;   ///< [s] where a few decimetres of way tell it from a robot that was carried off
@@ -102,14 +106,14 @@ class ScannerWatch {
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Nothing has borne it out yet: neither motion nor the map.
   [[nodiscard]] bool is_unproven() const { return !is_proven_ || lies_ > 0; }
-  [[nodiscard]] double unproven_speed() const { return params_.unproven_speed; }
+  [[nodiscard]] double unproven_speed() const { return has_ring_ ? params_.unproven_speed : params_.alone_speed; }
 
  private:
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
     /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map;
-    /// by sonars and infrared sensors.
-    enum class By { sweeps, motion, map, rings };
+    /// by sonars and infrared sensors; by walls that are bent.
+    enum class By { sweeps, motion, map, rings, walls };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
@@ -137,6 +141,7 @@ class ScannerWatch {
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
+  void judge_walls(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
   void judge_silence(const SweepView& view);
@@ -160,12 +165,14 @@ class ScannerWatch {
   MotionCheck motion_;
   RepeatedSweeps repeats_;
   OldSweeps old_;
+  BentWalls bent_walls_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;
   NearThings near_;
   RingCheck rings_;
-  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
+  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long
+  bool has_ring_ = false;
   Pose2 base_from_sensor_;
   SweepForm form_;
   enum class FormFault { none, units, covered, silent };
@@ -180,7 +187,6 @@ class ScannerWatch {
   Time joined_{};         ///< the last break of another scanner that counted for this one
   int lies_ = 0;          ///< sweeps in succession that follow a law, or none while a lie lasts
   Time suspected_{};      ///< the first of them
-                          ///< the last sweep that was not as the one before let expect
   Word word_;
   std::optional<Lie> lie_;
   Time newest_{};
