@@ -56,8 +56,7 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
   const Pose2 by_odometry = inverse(view.odom_from_sensor) * from_->odom_from_sensor;
   const Agreement here = share_of(view, by_odometry);
   if (here.compared >= params_.law.least && here.share >= params_.surely_agrees)
-    return !may_be_late || would_late_ones_differ(view, by_odometry, here.share) ? Finding::in_order
-                                                                                  : Finding::nothing;
+    return !may_be_late || would_late_ones_differ(view, by_odometry, here.share) ? Finding::in_order : Finding::nothing;
   const double least = std::max(params_.explains, here.share + params_.better);
   Finding finding = Finding::nothing;
   double best = least;
@@ -111,7 +110,7 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late, b
       (view.stamp - from_->stamp > seconds(params_.longest) && !is_pending)) {
     unproven_ = finding == Finding::in_order ? 0.0 : unproven_ + way;
     from_ = view;
-    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::in_order;
+    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::untold;
   }
   return finding;
 }

@@ -40,7 +40,8 @@ class MotionCheck {
  public:
   explicit MotionCheck(const MotionCheckParams& params = {}) : params_{params} {}
 
-  enum class Finding { nothing, in_order, too_long, late };
+  /// `untold`: a metre was driven, and nothing could be compared
+  enum class Finding { nothing, in_order, untold, too_long, late };
   /// One sweep. O(samples * explanations) where something does not fit, else O(samples). @returns what is sure
   /// @param may_be_late  the sweeps are in order only where late ones would look otherwise
   /// @param do_turns_prove  of factors, which no turn on the spot shows, something else would tell

@@ -29,8 +29,8 @@ void OldSweeps::follow(const SweepView& view) {
 }
 
 bool OldSweeps::has_turned() const {
-  const auto [least, most] = std::minmax_element(
-      trail_.begin(), trail_.end(), [](const Step& a, const Step& b) { return a.heading < b.heading; });
+  const auto [least, most] = std::minmax_element(trail_.begin(), trail_.end(),
+                                                 [](const Step& a, const Step& b) { return a.heading < b.heading; });
   return most->heading - least->heading >= params_.turned;
 }
 
@@ -60,11 +60,10 @@ OldSweeps::Fit OldSweeps::best_near(const SweepView& view, Fit best, const Pose2
 }
 
 std::optional<OldSweeps::Motion> OldSweeps::measure(const SweepView& view, const Pose2& base_from_sensor) {
-  const Pose2 moved = base_from_sensor * inverse(reference_->odom_from_sensor) * view.odom_from_sensor *
-                      inverse(base_from_sensor);
+  const Pose2 moved =
+      base_from_sensor * inverse(reference_->odom_from_sensor) * view.odom_from_sensor * inverse(base_from_sensor);
   const Point2 ahead = unit(Angle::radians(0.5 * moved.theta.radians()));
-  const Fit by_wheels =
-      fit_of(view, {moved.x * ahead.x + moved.y * ahead.y, moved.theta.radians()}, base_from_sensor);
+  const Fit by_wheels = fit_of(view, {moved.x * ahead.x + moved.y * ahead.y, moved.theta.radians()}, base_from_sensor);
   if (by_wheels.share >= params_.surely_fits) return by_wheels.motion;
   // As it was, or going on as it went; what is near to that is looked for.
   Fit best = fit_of(view, last_, base_from_sensor);
@@ -133,9 +132,8 @@ double OldSweeps::left_by_slip() const {
 
 std::optional<double> OldSweeps::lag() const {
   if (looks_.size() < params_.looks) return std::nullopt;
-  const bool is_enough = std::any_of(looks_.begin(), looks_.end(), [&](const Look& look) {
-    return std::abs(look.turn) >= params_.least_turn;
-  });
+  const bool is_enough = std::any_of(looks_.begin(), looks_.end(),
+                                     [&](const Look& look) { return std::abs(look.turn) >= params_.least_turn; });
   if (!is_enough) return std::nullopt;
   double best_lag = 0.0;
   double best = std::numeric_limits<double>::infinity();

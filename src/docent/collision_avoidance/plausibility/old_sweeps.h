@@ -90,8 +90,8 @@ class OldSweeps {
 
   OldSweepsParams params_;
   std::optional<SweepView> reference_;
-  Motion last_;                ///< the last look's
-  Motion before_;              ///< and that of the one before
+  Motion last_;    ///< the last look's
+  Motion before_;  ///< and that of the one before
   Time looked_{};
   std::deque<Step> trail_;
   bool is_trail_cut_ = false;  ///< it did not stand where the trail begins

@@ -28,7 +28,6 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       motion_{params.motion},
       repeats_{params.repeats},
       old_{params.old},
-      bent_walls_{params.walls},
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
@@ -255,8 +254,7 @@ void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, co
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
   const auto age = old_.add(view, sweep.base_from_sensor);
   if (old_.is_refuted() && lie_ && lie_->is_late) acquit();
-  if (age)
-    convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+  if (age) convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
@@ -278,24 +276,13 @@ void ScannerWatch::judge_motion(const SweepView& view) {
         acquit();
       }
       break;
+    case MotionCheck::Finding::untold:
+      if (!lie_) is_proven_ = true;
+      break;
     case MotionCheck::Finding::late:  // or wheels that slip
     case MotionCheck::Finding::nothing:
       break;
   }
-}
-
-void ScannerWatch::judge_walls(const SweepView& view) {
-  const auto offset = bent_walls_.add(view);
-  if (lie_ && lie_->by == Lie::By::walls && bent_walls_.are_straight()) acquit();
-  const bool fits_map = word_.fits_map != Time{} && view.stamp - word_.fits_map < seconds(params_.silence_map);
-  if (!offset || fits_map) return;
-  RangeLaw law;
-  law.offset = *offset;
-  if (rings_.contradicts(law, {})) return;
-  convict({.what = "the distances of the " + name_ + " are " + to_words(law) + ": walls are bent",
-           .by = Lie::By::walls,
-           .law = law},
-          view.stamp);
 }
 
 bool ScannerWatch::is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const {
@@ -412,7 +399,6 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     judge_age(view, sweep, odom_from_base);
     judge_onset(view, others);
     judge_motion(view);
-    judge_walls(view);
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);
     if (!form_.is_silent && !lie_) look_for_walls(view);

@@ -8,7 +8,6 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
-#include "docent/collision_avoidance/plausibility/bent_walls.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
@@ -26,7 +25,6 @@ struct ScannerWatchParams {
   RangeLawParams law{};
   RepeatedSweepsParams repeats{};
   OldSweepsParams old{};
-  BentWallsParams walls{};
   BlindSectorsParams sectors{};
   NearThingsParams near{};
   MotionCheckParams motion{};
@@ -112,8 +110,8 @@ class ScannerWatch {
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
     /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map;
-    /// by sonars and infrared sensors; by walls that are bent.
-    enum class By { sweeps, motion, map, rings, walls };
+    /// by sonars and infrared sensors.
+    enum class By { sweeps, motion, map, rings };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
@@ -141,7 +139,6 @@ class ScannerWatch {
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
-  void judge_walls(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
   void judge_silence(const SweepView& view);
@@ -165,7 +162,6 @@ class ScannerWatch {
   MotionCheck motion_;
   RepeatedSweeps repeats_;
   OldSweeps old_;
-  BentWalls bent_walls_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;
