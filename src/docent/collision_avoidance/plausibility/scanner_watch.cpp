@@ -258,7 +258,7 @@ void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, co
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
-  switch (motion_.add(view, lie_ && lie_->is_late, has_ring_)) {
+  switch (motion_.add(view, lie_ && lie_->is_late, !is_alone())) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();

@@ -32,12 +32,12 @@ struct ScannerWatchParams {
   RingCheckParams rings{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
-  double alone_speed = 0.1;      ///< [m/s] likewise, without sonars: a factor shows after 0.3 m of way
-  double trusts = 0.8;           ///< of what a scanner that is tried should say by its law
-  double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
-  double stands = 8.0;           ///< [s] after the last sign of a lie, before that,
-  double stands_briefly = 1.0;   ///< [s] where a few decimetres of way tell it from a robot that was carried off
-  double onset = 0.6;            ///< [s] since the sweep before, at most: then people and places have changed
+  double alone_speed = 0.1;     ///< [m/s] likewise, without sonars and lost on a map: a factor shows after 0.3 m of way
+  double trusts = 0.8;          ///< of what a scanner that is tried should say by its law
+  double trial_speed = 0.06;    ///< [m/s] to find out whether a scanner that lied tells the truth again
+  double stands = 8.0;          ///< [s] after the last sign of a lie, before that,
+  double stands_briefly = 1.0;  ///< [s] where a few decimetres of way tell it from a robot that was carried off
+  double onset = 0.6;           ///< [s] since the sweep before, at most: then people and places have changed
   double breaks = 0.4;        ///< of the samples that answer at most as the sweep before has it: something has happened
   int breaks_least = 12;      ///< of them at least
   double with_others = 0.35;  ///< [s] since another scanner saw a break: this one was carried off, too
@@ -104,7 +104,7 @@ class ScannerWatch {
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Nothing has borne it out yet: neither motion nor the map.
   [[nodiscard]] bool is_unproven() const { return !is_proven_ || lies_ > 0; }
-  [[nodiscard]] double unproven_speed() const { return has_ring_ ? params_.unproven_speed : params_.alone_speed; }
+  [[nodiscard]] double unproven_speed() const { return is_alone() ? params_.alone_speed : params_.unproven_speed; }
 
  private:
   /// A lie of the whole sweep, other than one of its form.
@@ -153,6 +153,8 @@ class ScannerWatch {
   [[nodiscard]] bool is_tried(Time now) const;
   void acquit();
   void hide(SensorSweep& sweep, const SweepView& view) const;
+  /// No sonar and no infrared sensor bears it out; where there is a map it soon might.
+  [[nodiscard]] bool is_alone() const { return !has_ring_ && map_.has_map(); }
   [[nodiscard]] bool looks_ahead() const { return std::abs(base_from_sensor_.theta.radians()) < params_.ahead; }
 
   std::string name_;

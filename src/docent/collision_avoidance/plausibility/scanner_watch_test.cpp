@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 #include "docent/collision_avoidance/plausibility/ring_for_test.h"
@@ -176,7 +177,8 @@ TEST_F(Watched, OldSweepsFromTheStartShowInTheFirstTurn) {
   EXPECT_EQ(drive(1.0, lie, 0.0), "the front laser gives old sweeps");
 }
 
-TEST_F(Watched, WithoutARingATurnProvesNothingAndItIsSlow) {
+TEST_F(Watched, WithoutARingATurnOfALostRobotProvesNothingAndItIsSlow) {
+  watch = ScannerWatch{"front laser", limits, std::make_shared<OccupancyGrid>()};
   drive(0.5, {}, 0.0);
   turns = 0.06;
   EXPECT_EQ(drive(2.0, {}, 0.0), "");
