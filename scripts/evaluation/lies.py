@@ -1,9 +1,11 @@
 """Scanners that work and say what is not so: other units, nothing at all, a blind sector, nothing where something is too near,
 an offset, a factor, old sweeps. Each on the front scanner, the rear one and both, beginning while the robot drives, and from
 the first sweep on at a place that it does not know. It must touch nothing, and name the scanner within SAID_S: of a lie that
-begins in a drive from then on; of one from the start from the first movement on; of what is too near from when it is.
+begins in a drive from then on; of one from the start from when it can be known: the first movement; for old sweeps, which show nothing
+of a turn before it is as old as they are, TURNED_DEG of turn or MOVED_M of way; for robots without a ring, factors and offsets MOVED_M of
+way; of what is too near from when it is, if it stays for SAID_S.
 
-Runs without a lie, in two museums and two crowds, and runs in which the robot is carried off every CARRIED_EVERY_S, count false
+The same from the start with other robots (part `bare`): one laser or two and nothing else that hears walls. Runs without a lie, in two museums and two crowds, and runs in which the robot is carried off every CARRIED_EVERY_S, count false
 alarms. A robot without watches must fail.
 """
 import random
@@ -21,6 +23,13 @@ WATCHED_S = 12.0  # [s] after a lie has begun
 NEAR_WATCHED_S = 60.0  # [s]: until something comes near
 STARTS_S = 45.0  # [s] of a run that begins with a lie
 MOVES = 0.02  # [m/s]
+TURNED_DEG = 20.0
+MOVED_M = 0.3
+BARE = {  # robots without sonars and infrared sensors, and the lasers that lie
+    "one laser": (["--robot", "turtlebot.yaml"], ["front"]),
+    "two lasers": (["--set", "body.sonars=0", "--set", "body.infrareds=0"], ["front", "both"]),
+}
+BARE_KINDS = ["units", "silent", "sector", "offset", "scaled", "stale"]
 SENSORS = {"front": ["laser_front"], "rear": ["laser_rear"], "both": ["laser_front", "laser_rear"]}
 SAYS = {  # kind: what the reason must hold beside the scanner's name
     "units": ["wrong units"],
@@ -40,7 +49,7 @@ CROWDS = ["busy", "packed"]
 LOOP_S = 3.0  # [s] that a loop takes: from the start, it must have been said once
 SLICE_KINDS = ["units", "silent", "sector", "offset", "scaled", "stale"]
 SLICE_STARTS = ["units", "silent", "sector", "offset", "scaled"]  # of these also from the start
-PARTS = [*SAYS, "alarms"]
+PARTS = [*SAYS, "bare", "alarms"]
 CRIPPLED_KINDS = ["units", "silent"]
 
 
@@ -65,7 +74,8 @@ def events(kind, which, at):
 class Outcome:
     """What one lie did to one run."""
 
-    def __init__(self, kind, which, at, rows):
+    def __init__(self, kind, which, at, rows, has_ring=True):
+        self.has_ring = has_ring
         after = [row for row in rows if row["time"] >= at]
         self.due = self.due_of(kind, at, after)
         names = ["front laser", "rear laser"] if which == "both" else [f"{which} laser"]
@@ -80,13 +90,34 @@ class Outcome:
     def due_of(self, kind, at, after):
         """[s] from when on it can be known; None: it never could."""
         if kind in NEAR_KINDS:
-            near = [row["time"] for row in after if row["left_out"]]
-            return near[0] if near else None
+            return first_stay(after)
         if at > 0.0:
             return at
         told_once = LOOP_S if kind == "looped" else 0.0
-        moved = [row["time"] for row in after if abs(row["speed"]) > MOVES and row["time"] >= told_once]
-        return moved[0] if moved else None
+        by_way = not self.has_ring and kind in ("offset", "scaled")
+        turned = 0.0
+        for before, row in zip(after, after[1:]):
+            turned += abs((row["heading"] - before["heading"] + 180.0) % 360.0 - 180.0)
+            way = row["distance"] - after[0]["distance"]
+            moves = abs(row["speed"]) > MOVES  # in a turn on the spot it finds out, and hits nothing
+            if kind == "stale" and (turned >= TURNED_DEG or way >= MOVED_M) or by_way and way >= MOVED_M:
+                return row["time"]
+            if kind != "stale" and not by_way and moves and row["time"] >= told_once:
+                return row["time"]
+        return None
+
+
+def first_stay(rows):
+    """[s] when something is left out that stays for SAID_S."""
+    began = None
+    for row in rows:
+        if not row["left_out"]:
+            began = None
+        elif began is None:
+            began = row["time"]
+        if began is not None and row["time"] - began >= SAID_S:
+            return began
+    return None
 
 
 def strike(bench, kind, which, seed, rows):
@@ -101,8 +132,9 @@ def strike(bench, kind, which, seed, rows):
 
 
 def begin(bench, kind, which, seed, extra=()):
+    has_ring = "--robot" not in extra and "body.sonars=0" not in extra
     rows, _ = bench.run(seed, STARTS_S, events(kind, which, 0.0), list(extra))
-    return Outcome(kind, which, 0.0, rows)
+    return Outcome(kind, which, 0.0, rows, has_ring)
 
 
 HEADER = ["lie", "of", "begins", "runs", "could be known", "said s: median", "worst", "reason", "touched", "driven after m"]
@@ -132,8 +164,8 @@ def protocol(bench, options):
     kinds = SLICE_KINDS if options.slice else list(SAYS)
     places = ["front"] if options.slice else list(SENSORS)
     verdict = Verdict()
-    if options.part == "alarms":
-        false_alarms(bench, options, seeds, verdict)
+    if options.part in ("alarms", "bare"):
+        (false_alarms if options.part == "alarms" else bare)(bench, options, seeds, verdict)
         verdict.print()
         return verdict
     if options.part:
@@ -159,12 +191,33 @@ def protocol(bench, options):
                  f"{sum(o.hours for o in everything):.1f} h, {sum(o.passes for o in everything)} passes within 1 m; people bumped into it "
                  f"{sum(o.bumps for o in everything):.0f} times", not any(o.touched for o in everything))
     if not options.part:
+        if not options.slice:
+            bare(bench, options, seeds, verdict)
         false_alarms(bench, options, seeds, verdict)
     verdict.want_one_configuration(bench.hashes)
     if not options.no_crippled:
         cripple(bench, seeds[:1] if options.slice else seeds[:3], verdict)
     verdict.print()
     return verdict
+
+
+def bare(bench, options, seeds, verdict):
+    """From the start, on robots without a ring, in both museums."""
+    for museum in MUSEUMS:
+        of = bench.of(museum, "busy")
+        print(f"\n## lies from the start without a ring, {museum}, busy, {len(seeds)} seeds\n")
+        table = []
+        for name, (robot, places) in BARE.items():
+            robot = [str(bench.museums.parent / "robots" / part) if part.endswith(".yaml") else part for part in robot]
+            for kind in BARE_KINDS:
+                for which in places:
+                    outcomes = of.each([lambda s=s, k=kind, w=which: begin(of, k, w, s, robot) for s in seeds])
+                    table.append(row_of(kind, f"{which} of {name}", "at the start", outcomes))
+                    due = [o for o in outcomes if o.due is not None]
+                    late, touched = [o for o in due if o.said_s > SAID_S], sum(o.touched for o in outcomes)
+                    verdict.want(f"{museum}, {kind}, {which} of {name}", f"{touched:.0f} touched, {len(late)} of {len(due)} named late or never",
+                                 touched == 0 and not late)
+        print_table(HEADER, table)
 
 
 def carried_off(minutes):

@@ -35,6 +35,19 @@ int count_by_law(std::span<const float> expected, const SweepView& view, double 
   return count;
 }
 
+Agreement agreement_of(const SweepView& seen, const Pose2& now_from_then, const SweepView& now,
+                       std::vector<float>& expected, const RangeLawParams& params) {
+  expect(seen, now_from_then, now, expected);
+  Agreement agreement;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (expected[i] > params.surely_within * now.max_range) expected[i] = std::nanf("");
+    if (!std::isnan(expected[i]) && !std::isnan(now.ranges[i])) ++agreement.compared;
+  }
+  if (agreement.compared > 0)
+    agreement.share = static_cast<double>(count_by_law(expected, now, 1.0, 0.0, params)) / agreement.compared;
+  return agreement;
+}
+
 RangeLaw find_law(std::span<const float> expected, const SweepView& view, const RangeLawParams& params) {
   RangeLaw law;
   std::vector<double> offsets;

@@ -40,6 +40,15 @@ struct RangeLaw {
 /// @param expected  [samples of view] [m]; NaN: nothing is known
 [[nodiscard]] int count_by_law(std::span<const float> expected, const SweepView& view, double scale, double offset,
                                const RangeLawParams& params = {});
+/// How much of a sweep is as another one lets expect.
+struct Agreement {
+  int compared = 0;    ///< samples of which something is surely expected
+  double share = 0.0;  ///< of them, as expected
+};
+/// @param now_from_then  from the sensor then to the sensor now @param expected  for use inside
+/// O(samples).
+[[nodiscard]] Agreement agreement_of(const SweepView& seen, const Pose2& now_from_then, const SweepView& now,
+                                     std::vector<float>& expected, const RangeLawParams& params = {});
 /// The scale alone, or the offset alone, that most samples follow. O(samples).
 [[nodiscard]] RangeLaw find_law(std::span<const float> expected, const SweepView& view,
                                 const RangeLawParams& params = {});

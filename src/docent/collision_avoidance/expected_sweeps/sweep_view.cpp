@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 #include "docent/geometry/point_transform.h"
 
@@ -53,6 +54,23 @@ SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::
     view.farthest[i] = farthest;
   }
   return view;
+}
+
+SweepView walls_of(const SweepView& view) {
+  std::vector<Point2> places;
+  std::vector<double> ranges;
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
+    if (!view.met(i)) continue;
+    places.push_back(view.place(i));
+    ranges.push_back(static_cast<double>(view.ranges[i]));
+    samples.push_back(i);
+  }
+  const std::vector<bool> straight = on_straight_pieces(places, ranges, view.bearing_step);
+  SweepView walls = view;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    if (!straight[k]) walls.ranges[samples[k]] = std::numeric_limits<float>::quiet_NaN();
+  return walls;
 }
 
 void expect(const SweepView& seen, const Pose2& like_from_seen, const SweepView& like, std::vector<float>& expected) {

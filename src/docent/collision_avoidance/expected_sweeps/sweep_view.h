@@ -43,6 +43,9 @@ struct SweepView {
 /// @param most  samples
 [[nodiscard]] SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::size_t most = 180);
 
+/// A view of what is wider than a person and straight: the rest is "no reading". O(samples * log samples), mostly.
+[[nodiscard]] SweepView walls_of(const SweepView& view);
+
 /// The ranges [m] that the samples of `like` would have if what `seen` met stood still: [samples], NaN where `seen`
 /// says nothing of a sample.
 /// @param like_from_seen  from the sensor then to the sensor now

@@ -51,5 +51,15 @@ TEST(SweepView, WhatStandsStillIsExpectedWhereItIs) {
   EXPECT_TRUE(std::isnan(expected.back()));  // it has turned to the left: nothing was seen there
 }
 
+TEST(SweepView, WallsAreWhatIsStraightAndWiderThanAPerson) {
+  RoomForTest room;
+  room.box(-3, -4, 6, 4);
+  room.discs = {{{2.0, 0.0}, 0.25}};
+  const SweepView view = view_of(room.sweep(1.0, {}), {});
+  const SweepView walls = walls_of(view);
+  EXPECT_TRUE(std::isnan(walls.ranges[90]));  // the person ahead
+  EXPECT_EQ(walls.ranges[45], view.ranges[45]);
+}
+
 }  // namespace
 }  // namespace docent::collision_avoidance::sweep_view_test

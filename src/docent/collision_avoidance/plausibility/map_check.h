@@ -34,6 +34,7 @@ class MapCheck {
   explicit MapCheck(std::shared_ptr<const OccupancyGrid> map = nullptr, const MapCheckParams& params = {})
       : params_{params}, map_{std::move(map)} {}
 
+  [[nodiscard]] bool has_map() const { return map_ != nullptr; }
   /// Where the robot believes to be. @param mass  of the belief there, 0..1
   void believe(Time stamp, const Pose2& map_from_odom, double mass);
 

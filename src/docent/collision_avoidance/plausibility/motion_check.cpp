@@ -24,16 +24,8 @@ Pose2 MotionCheck::odom_from_sensor_at(Time time) const {
   return before.odom_from_sensor * Pose2{share * step.x, share * step.y, Angle::radians(share * step.theta.radians())};
 }
 
-MotionCheck::Share MotionCheck::share_of(const SweepView& view, const Pose2& now_from_then) {
-  expect(*from_, now_from_then, view, expected_);
-  Share share;
-  for (std::size_t i = 0; i < expected_.size(); ++i) {
-    if (expected_[i] > params_.law.surely_within * view.max_range) expected_[i] = std::nanf("");
-    if (!std::isnan(expected_[i]) && !std::isnan(view.ranges[i])) ++share.compared;
-  }
-  if (share.compared > 0)
-    share.agrees = static_cast<double>(count_by_law(expected_, view, 1.0, 0.0, params_.law)) / share.compared;
-  return share;
+Agreement MotionCheck::share_of(const SweepView& view, const Pose2& now_from_then) {
+  return agreement_of(*from_, now_from_then, view, expected_, params_.law);
 }
 
 MotionCheck::Finding MotionCheck::count(Finding finding) {
@@ -56,24 +48,23 @@ bool MotionCheck::would_late_ones_differ(const SweepView& view, const Pose2& by_
   return std::all_of(kLags.begin(), kLags.end(), [&](double lag) {
     if (lag < params_.late) return true;
     const Pose2 late = now_from_then_if_late(view, lag);
-    return differs(by_odometry, late) && share_of(view, late).agrees <= agrees - params_.otherwise;
+    return differs(by_odometry, late) && share_of(view, late).share <= agrees - params_.otherwise;
   });
 }
 
 MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_late) {
   const Pose2 by_odometry = inverse(view.odom_from_sensor) * from_->odom_from_sensor;
-  const Share here = share_of(view, by_odometry);
-  if (here.compared >= params_.law.least && here.agrees >= params_.surely_agrees)
-    return !may_be_late || would_late_ones_differ(view, by_odometry, here.agrees) ? Finding::in_order
-                                                                                  : Finding::nothing;
-  const double least = std::max(params_.explains, here.agrees + params_.better);
+  const Agreement here = share_of(view, by_odometry);
+  if (here.compared >= params_.law.least && here.share >= params_.surely_agrees)
+    return !may_be_late || would_late_ones_differ(view, by_odometry, here.share) ? Finding::in_order : Finding::nothing;
+  const double least = std::max(params_.explains, here.share + params_.better);
   Finding finding = Finding::nothing;
   double best = least;
   const auto try_out = [&](const Pose2& other, Finding means) {
     if (!differs(by_odometry, other)) return false;
-    const Share share = share_of(view, other);
-    if (share.compared < params_.law.least || share.agrees < best) return false;
-    best = share.agrees;
+    const Agreement found = share_of(view, other);
+    if (found.compared < params_.law.least || found.share < best) return false;
+    best = found.share;
     finding = means;
     return true;
   };
@@ -88,11 +79,11 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
     if (is_fast && try_out(now_from_then_if_late(view, lag), Finding::late)) lag_ = lag;
   }
   if (finding != Finding::nothing) return finding;
-  const bool agrees = here.compared >= params_.law.least && here.agrees >= params_.agrees && !may_be_late;
+  const bool agrees = here.compared >= params_.law.least && here.share >= params_.agrees && !may_be_late;
   return agrees ? Finding::in_order : Finding::nothing;
 }
 
-MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
+MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late, bool do_turns_prove) {
   trail_.push_back({view.stamp, view.odom_from_sensor});
   while (view.stamp - trail_.front().stamp > seconds(kTrail)) trail_.pop_front();
   if (!from_) {
@@ -111,15 +102,15 @@ MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late) {
     compared_ = view.stamp;
     compared_at_ = view.odom_from_sensor;
     finding = count(compare(view, may_be_late));
-    if (finding == Finding::in_order && way < params_.proves_way && turn < params_.proves_turn)
-      finding = Finding::nothing;
+    const bool is_proof = way >= params_.proves_way || (do_turns_prove && turn >= params_.proves_turn);
+    if (finding == Finding::in_order && !is_proof) finding = Finding::nothing;
   }
   const bool is_pending = last_ != Finding::nothing && last_ != Finding::in_order && row_ < params_.sure;
   if (way > params_.farthest || turn > 2.0 * params_.proves_turn ||
       (view.stamp - from_->stamp > seconds(params_.longest) && !is_pending)) {
     unproven_ = finding == Finding::in_order ? 0.0 : unproven_ + way;
     from_ = view;
-    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::in_order;
+    if (finding == Finding::nothing && unproven_ > params_.unproven_way && !may_be_late) return Finding::untold;
   }
   return finding;
 }

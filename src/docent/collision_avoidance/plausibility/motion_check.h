@@ -40,10 +40,12 @@ class MotionCheck {
  public:
   explicit MotionCheck(const MotionCheckParams& params = {}) : params_{params} {}
 
-  enum class Finding { nothing, in_order, too_long, late };
+  /// `untold`: a metre was driven, and nothing could be compared
+  enum class Finding { nothing, in_order, untold, too_long, late };
   /// One sweep. O(samples * explanations) where something does not fit, else O(samples). @returns what is sure
   /// @param may_be_late  the sweeps are in order only where late ones would look otherwise
-  Finding add(const SweepView& view, bool may_be_late = false);
+  /// @param do_turns_prove  of factors, which no turn on the spot shows, something else would tell
+  Finding add(const SweepView& view, bool may_be_late = false, bool do_turns_prove = true);
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
@@ -56,11 +58,7 @@ class MotionCheck {
   }
 
  private:
-  struct Share {
-    int compared = 0;
-    double agrees = 0.0;
-  };
-  [[nodiscard]] Share share_of(const SweepView& view, const Pose2& now_from_then);
+  [[nodiscard]] Agreement share_of(const SweepView& view, const Pose2& now_from_then);
   [[nodiscard]] Finding compare(const SweepView& view, bool may_be_late);
   [[nodiscard]] Pose2 now_from_then_if_late(const SweepView& view, double lag) const;
   [[nodiscard]] bool would_late_ones_differ(const SweepView& view, const Pose2& by_odometry, double agrees);

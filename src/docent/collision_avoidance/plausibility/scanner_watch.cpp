@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
-
 namespace docent::collision_avoidance {
 namespace {
 
@@ -19,24 +17,6 @@ BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSwee
   return {samples.first * stride, is_last ? sweep.ranges.size() : samples.end * stride};
 }
 
-/// A view of what is wider than a person and straight.
-SweepView walls_of(const SweepView& view) {
-  std::vector<Point2> places;
-  std::vector<double> ranges;
-  std::vector<std::size_t> samples;
-  for (std::size_t i = 0; i < view.ranges.size(); ++i) {
-    if (!view.met(i)) continue;
-    places.push_back(view.place(i));
-    ranges.push_back(static_cast<double>(view.ranges[i]));
-    samples.push_back(i);
-  }
-  const std::vector<bool> straight = on_straight_pieces(places, ranges, view.bearing_step);
-  SweepView walls = view;
-  for (std::size_t k = 0; k < samples.size(); ++k)
-    if (!straight[k]) walls.ranges[samples[k]] = kNoReading;
-  return walls;
-}
-
 }  // namespace
 
 ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
@@ -47,6 +27,7 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       map_{std::move(map), params.map},
       motion_{params.motion},
       repeats_{params.repeats},
+      old_{params.old},
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
@@ -84,6 +65,7 @@ void ScannerWatch::follow_mount(const SensorSweep& sweep) {
   lies_ = 0;
   before_.reset();
   forget_places();
+  old_.forget();
   word_ = {.broken = sweep.stamp, .remounted = sweep.stamp};
 }
 
@@ -266,14 +248,17 @@ void ScannerWatch::look_for_walls(const SweepView& view) {
   if (is_old) walls_ = walls_of(view);
 }
 
-void ScannerWatch::judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
+void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base) {
   if (form_.is_covered) return;  // whoever stands before it gives the same reading everywhere, again and again
-  if (const auto age = repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
+  if (repeats_.add(sweep.stamp, sweep.ranges, view.answers, odom_from_base))
     convict({.what = "the " + name_ + " repeats old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
+  const auto age = old_.add(view, sweep.base_from_sensor);
+  if (old_.is_refuted() && lie_ && lie_->is_late) acquit();
+  if (age) convict({.what = "the " + name_ + " gives old sweeps", .by = Lie::By::motion, .is_late = true}, view.stamp);
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
-  switch (motion_.add(view, lie_ && lie_->is_late)) {
+  switch (motion_.add(view, lie_ && lie_->is_late, !is_alone())) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;
       law.scale = motion_.scale();
@@ -284,9 +269,6 @@ void ScannerWatch::judge_motion(const SweepView& view) {
               view.stamp);
       break;
     }
-    case MotionCheck::Finding::late:
-      // Wheels that slip look the same: old sweeps are known by their repetition, delays by `calibrate`.
-      break;
     case MotionCheck::Finding::in_order:
       if (!lie_) {
         is_proven_ = true;
@@ -294,6 +276,10 @@ void ScannerWatch::judge_motion(const SweepView& view) {
         acquit();
       }
       break;
+    case MotionCheck::Finding::untold:
+      if (!lie_) is_proven_ = true;
+      break;
+    case MotionCheck::Finding::late:  // or wheels that slip
     case MotionCheck::Finding::nothing:
       break;
   }
@@ -363,6 +349,12 @@ void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Findin
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   const bool is_nothing_to_believe =
       lie_ || form_fault_ == FormFault::units || (form_.is_silent && !is_silence_explained_);
+  if (lie_ && form_fault_ == FormFault::none && !has_ring_ && is_tried(view.stamp)) {
+    // Nothing else sees where it creeps.
+    const double share = lie_->law.scale > 1.0 ? params_.trusts / lie_->law.scale : 1.0;
+    for (float& range : sweep.ranges) range *= static_cast<float>(share);
+    return;
+  }
   if (is_nothing_to_believe) {
     std::fill(sweep.ranges.begin(), sweep.ranges.end(), kNoReading);
     return;
@@ -381,10 +373,12 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   if (sweep.ranges.empty() || !(sweep.bearing_step > 0.0)) return sweep;
   follow_mount(sweep);
   newest_ = sweep.stamp;
+  has_ring_ = has_ring_ || !rings.empty();
   judge_form(sweep);
   const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
   if (!is_motion_known) {
     motion_.forget();
+    old_.forget();
     before_.reset();
     walls_.reset();
     lies_ = 0;
@@ -402,7 +396,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
       near_.hear(view, rings_.unanswered(view, rings),
                  can_be_too_near(sweep, std::max(sweep.min_range, near_.blind_within()), limits_));
     }
-    judge_repeats(view, sweep, odom_from_base);
+    judge_age(view, sweep, odom_from_base);
     judge_onset(view, others);
     judge_motion(view);
     judge_by_map(view, others);

@@ -12,6 +12,7 @@
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
 #include "docent/collision_avoidance/plausibility/near_things.h"
+#include "docent/collision_avoidance/plausibility/old_sweeps.h"
 #include "docent/collision_avoidance/plausibility/repeated_sweeps.h"
 #include "docent/collision_avoidance/plausibility/ring_check.h"
 #include "docent/collision_avoidance/plausibility/sweep_form.h"
@@ -23,17 +24,20 @@ struct ScannerWatchParams {
   SweepFormParams form{};
   RangeLawParams law{};
   RepeatedSweepsParams repeats{};
+  OldSweepsParams old{};
   BlindSectorsParams sectors{};
   NearThingsParams near{};
   MotionCheckParams motion{};
   MapCheckParams map{};
   RingCheckParams rings{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
-  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out
-  double trial_speed = 0.06;     ///< [m/s] to find out whether a scanner that lied tells the truth again
-  double stands = 8.0;           ///< [s] after the last sign of a lie, before that,
-  double stands_briefly = 1.0;   ///< [s] where a few decimetres of way tell it from a robot that was carried off
-  double onset = 0.6;            ///< [s] since the sweep before, at most: then people and places have changed
+  double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
+  double alone_speed = 0.1;     ///< [m/s] likewise, without sonars and lost on a map: a factor shows after 0.3 m of way
+  double trusts = 0.8;          ///< of what a scanner that is tried should say by its law
+  double trial_speed = 0.06;    ///< [m/s] to find out whether a scanner that lied tells the truth again
+  double stands = 8.0;          ///< [s] after the last sign of a lie, before that,
+  double stands_briefly = 1.0;  ///< [s] where a few decimetres of way tell it from a robot that was carried off
+  double onset = 0.6;           ///< [s] since the sweep before, at most: then people and places have changed
   double breaks = 0.4;        ///< of the samples that answer at most as the sweep before has it: something has happened
   int breaks_least = 12;      ///< of them at least
   double with_others = 0.35;  ///< [s] since another scanner saw a break: this one was carried off, too
@@ -100,7 +104,7 @@ class ScannerWatch {
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Nothing has borne it out yet: neither motion nor the map.
   [[nodiscard]] bool is_unproven() const { return !is_proven_ || lies_ > 0; }
-  [[nodiscard]] double unproven_speed() const { return params_.unproven_speed; }
+  [[nodiscard]] double unproven_speed() const { return is_alone() ? params_.alone_speed : params_.unproven_speed; }
 
  private:
   /// A lie of the whole sweep, other than one of its form.
@@ -133,7 +137,7 @@ class ScannerWatch {
   [[nodiscard]] Verdict verdict(const RangeLaw& law, Time since, std::span<const Word> others) const;
   [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
-  void judge_repeats(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
+  void judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
@@ -149,6 +153,8 @@ class ScannerWatch {
   [[nodiscard]] bool is_tried(Time now) const;
   void acquit();
   void hide(SensorSweep& sweep, const SweepView& view) const;
+  /// No sonar and no infrared sensor bears it out; where there is a map it soon might.
+  [[nodiscard]] bool is_alone() const { return !has_ring_ && map_.has_map(); }
   [[nodiscard]] bool looks_ahead() const { return std::abs(base_from_sensor_.theta.radians()) < params_.ahead; }
 
   std::string name_;
@@ -157,12 +163,14 @@ class ScannerWatch {
   MapCheck map_;
   MotionCheck motion_;
   RepeatedSweeps repeats_;
+  OldSweeps old_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;
   NearThings near_;
   RingCheck rings_;
-  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
+  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long
+  bool has_ring_ = false;
   Pose2 base_from_sensor_;
   SweepForm form_;
   enum class FormFault { none, units, covered, silent };
@@ -177,7 +185,6 @@ class ScannerWatch {
   Time joined_{};         ///< the last break of another scanner that counted for this one
   int lies_ = 0;          ///< sweeps in succession that follow a law, or none while a lie lasts
   Time suspected_{};      ///< the first of them
-                          ///< the last sweep that was not as the one before let expect
   Word word_;
   std::optional<Lie> lie_;
   Time newest_{};

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 #include "docent/collision_avoidance/plausibility/ring_for_test.h"
@@ -163,6 +164,38 @@ TEST_F(Watched, NamesOldSweeps) {
   EXPECT_GT(speed(), 0.0);  // very slowly it finds out
   EXPECT_LT(speed(), 0.1);
   EXPECT_NE(reason(), "");
+}
+
+TEST_F(Watched, OldSweepsFromTheStartShowInTheFirstTurn) {
+  const Lie lie = [&](SensorSweep& sweep) { sweep.ranges = given[given.size() > 10 ? given.size() - 11 : 0].ranges; };
+  EXPECT_EQ(drive(1.5, lie, 0.0), "");
+  turns = 0.05;
+  EXPECT_EQ(drive(1.0, lie, 0.0), "");  // they show nothing yet
+  EXPECT_EQ(drive(0.9, lie, 0.0), "the front laser gives old sweeps");
+  EXPECT_EQ(unread(), 180);
+  turns = 0.0;  // it stops, and they turn on
+  EXPECT_EQ(drive(1.0, lie, 0.0), "the front laser gives old sweeps");
+}
+
+TEST_F(Watched, WithoutARingATurnOfALostRobotProvesNothingAndItIsSlow) {
+  watch = ScannerWatch{"front laser", limits, std::make_shared<OccupancyGrid>()};
+  drive(0.5, {}, 0.0);
+  turns = 0.06;
+  EXPECT_EQ(drive(2.0, {}, 0.0), "");
+  EXPECT_TRUE(watch.is_unproven());
+  EXPECT_LT(watch.unproven_speed(), 0.15);
+  turns = 0.0;
+  EXPECT_EQ(drive(1.0), "");
+  EXPECT_FALSE(watch.is_unproven());
+}
+
+TEST_F(Watched, WithoutARingAScannerThatIsTriedIsBelievedForLessThanItShouldSay) {
+  const Lie lie = [](SensorSweep& sweep) { each(sweep, [](float range) { return 2.0F * range; }); };
+  EXPECT_EQ(drive(1.0), "");
+  EXPECT_EQ(drive(0.3, lie), "the distances of the front laser are 2.0 times too long");
+  drive(9.0, lie, 0.0);
+  EXPECT_GT(speed(), 0.0);
+  EXPECT_NEAR(believed.ranges[90], 0.8F * given.back().ranges[90], 0.1F);
 }
 
 TEST_F(Watched, AMountThatIsCorrectedIsNoLie) {
