@@ -97,6 +97,24 @@ TEST_F(Watched, SilenceInTheMiddleOfAHallIsNoWonderAndItCreeps) {
   EXPECT_EQ(unread(), 0);
 }
 
+TEST_F(Watched, SilenceIsNoWonderEitherWhereTheMapKnowsNothingYet) {
+  room = {};
+  room.max_range = 4.0;
+  room.box(-3, -30, 40, 30);
+  watch = ScannerWatch{"front laser", limits, std::make_shared<const OccupancyGrid>()};  // it explores
+  const auto believe = [this] { watch.believe(time_from_seconds(time), {}, 1.0); };
+  at = {0.0, 0.0, Angle::degrees(180)};
+  believe();
+  EXPECT_EQ(drive(0.5, {}, 0.0), "");
+  at = {0.9, 0.0, Angle::degrees(20)};  // turned away from the only wall in reach
+  for (int i = 0; i < 20; ++i) {
+    believe();
+    EXPECT_EQ(drive(0.3, {}, 0.0), "no beam of the front laser ends anywhere");
+    EXPECT_GT(speed(), 0.0) << "it would stand for ever";
+  }
+  EXPECT_EQ(unread(), 0);
+}
+
 TEST_F(Watched, NamesAnOffsetAFactorAndABlindSectorAtOnceAndForgetsThemAfterwards) {
   const std::vector<std::pair<std::string, Lie>> lies{
       {"the distances of the front laser are 0.5 m too long",
