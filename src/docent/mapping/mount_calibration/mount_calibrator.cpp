@@ -244,8 +244,8 @@ void MountCalibrator::judge(std::size_t scanner) {
     if (is_so) return std::abs(value) >= kHysteresis * limit || sigma > kTakenBack * limit;
     // Nothing is said of what is hardly known.
     const bool is_known_enough =
-        has_consent && (sigma <= kKnownEnough * limit ||
-                        (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit));
+        has_consent &&
+        (sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit));
     return has_pairs && is_known_enough && is_beyond(value, sigma, limit, params_.sigmas);
   };
   const Contradictions what{

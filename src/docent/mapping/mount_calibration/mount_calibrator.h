@@ -32,17 +32,17 @@ struct Contradictions {
 /// What is known of a scanner.
 struct CalibratedScanner {
   MountEstimate estimate;
-  std::size_t pairs = 0;         ///< that it comes of
-  bool is_known = false;         ///< the errors of heading and place are small
-  bool is_settled = false;       ///< and so small that a look now and then will do
-  bool is_borne_out = false;     ///< what is to be used fits the drive so far: no reason to be slow any more
-  Contradictions named{};        ///< robot.yaml says otherwise
-  Pose2 base_from_sensor;        ///< to be used: as robot.yaml has it, or as it was found
-  double delay = 0.0;            ///< [s] to be used
-  double doubt_heading = 0.0;    ///< [rad] standard deviation of what is to be used
-  double doubt_position = 0.0;   ///< [m] likewise
-  std::string finding;           ///< what contradicts robot.yaml, in words; empty: nothing
-  MountEstimate told;            ///< that the words are of: who is told anew with every sweep listens no more
+  std::size_t pairs = 0;        ///< that it comes of
+  bool is_known = false;        ///< the errors of heading and place are small
+  bool is_settled = false;      ///< and so small that a look now and then will do
+  bool is_borne_out = false;    ///< what is to be used fits the drive so far: no reason to be slow any more
+  Contradictions named{};       ///< robot.yaml says otherwise
+  Pose2 base_from_sensor;       ///< to be used: as robot.yaml has it, or as it was found
+  double delay = 0.0;           ///< [s] to be used
+  double doubt_heading = 0.0;   ///< [rad] standard deviation of what is to be used
+  double doubt_position = 0.0;  ///< [m] likewise
+  std::string finding;          ///< what contradicts robot.yaml, in words; empty: nothing
+  MountEstimate told;           ///< that the words are of: who is told anew with every sweep listens no more
 };
 
 /// The base as the scanners see it.
