@@ -79,11 +79,10 @@ std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
   expect_at(view, map_from_sensor, params_.every, expected_);
   const RangeLaw law = find_law(expected_, view, params_.law);
   Finding finding;
-  finding.is_known = true;
   const auto samples =
       std::count_if(expected_.begin(), expected_.end(), [](float range) { return !std::isnan(range); });
-  finding.is_nothing_near =
-      samples >= params_.law.least && law.compared <= params_.nothing_near * static_cast<double>(samples);
+  finding.is_known = samples >= params_.law.least;
+  finding.is_nothing_near = finding.is_known && law.compared <= params_.nothing_near * static_cast<double>(samples);
   finding.in_order = law.compared >= params_.law.least && law.is_as_expected(params_.fits);
   int answers = 0;
   for (std::size_t i = 0; i < expected_.size(); ++i) answers += view.met(i) && expected_[i] < view.max_range ? 1 : 0;

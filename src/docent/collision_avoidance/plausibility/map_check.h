@@ -40,7 +40,7 @@ class MapCheck {
 
   /// What one sweep says.
   struct Finding {
-    bool is_known = false;          ///< there is a place to compare with; else nothing else holds
+    bool is_known = false;          ///< there is a place, and the map knows it; else nothing else holds
     bool in_order = false;          ///< the sweep is as the map has it
     std::optional<RangeLaw> lie{};  ///< what holds for its ranges instead
     bool is_nothing_near = false;   ///< the map has nothing within this scanner's reach

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
@@ -80,6 +81,16 @@ TEST_F(MapCheckTest, SaysWhereNothingIsWithinReach) {
   EXPECT_TRUE(look(at, at, 1.0, 0.0).is_nothing_near);
   const Pose2 near{1.0, 4.0, Angle::degrees(180)};
   EXPECT_FALSE(look(near, near, 1.0, 0.0).is_nothing_near);
+}
+
+TEST_F(MapCheckTest, AMapThatDoesNotKnowThePlaceSaysNothing) {
+  const Pose2 at{3.0, 4.0, {}};
+  OccupancyGrid unknown = *map;
+  std::fill(unknown.cells.begin(), unknown.cells.end(), OccupancyGrid::kUnknown);
+  for (const OccupancyGrid& grid : {unknown, OccupancyGrid{}}) {
+    map = std::make_shared<const OccupancyGrid>(grid);
+    EXPECT_FALSE(look(at, at, 1.0, 0.0).is_known);
+  }
 }
 
 }  // namespace

@@ -328,11 +328,20 @@ void ScannerWatch::judge_by_map(const SweepView& view, std::span<const Word> oth
   if (of_map_row_ >= params_.map_silences) sectors_.look_for(view, map_.expected(), params_.map_patience);
 }
 
+bool ScannerWatch::is_glass(const RangeLaw& law) const {
+  return fits_rings_ != Time{} && (law.offset >= params_.unseen || law.scale >= params_.unseen_factor);
+}
+
 void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Finding& found) {
   const bool does_map_fit = word_.fits_map != Time{} && word_.fits_map >= map_said_ &&
                             view.stamp - word_.fits_map < seconds(params_.silence_map);
-  // Glass all round: the map has what the laser sees through it.
-  rings_row_ = found.too_long && !does_map_fit ? rings_row_ + 1 : 0;
+  if (view.stamp - word_.newest > seconds(params_.onset) || word_.broken > fits_rings_) fits_rings_ = {};
+  // What the sensors said before a break counts as long as they remember it.
+  const bool is_settled = view.stamp - word_.broken > seconds(params_.rings.memory);
+  if (found.in_order && is_settled && word_.newest == view.stamp && !lie_) fits_rings_ = view.stamp;
+  // Glass all round: the map has what the laser sees through it, or it has seen so all the while.
+  const bool is_lie = found.too_long && !does_map_fit && !is_glass(*found.too_long);
+  rings_row_ = is_lie ? rings_row_ + 1 : 0;
   if (rings_row_ >= params_.rings_sure) {
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found.too_long) + " for sonar and infrared",
              .by = Lie::By::rings,

@@ -53,6 +53,8 @@ struct ScannerWatchParams {
   double clearly = 2.0;           ///< times as many as of the other
   int sure = 2;                   ///< sweeps that say the same
   int rings_sure = 3;             ///< likewise, against sonars and infrared sensors
+  double unseen = 0.5;            ///< [m] a greater offset shows to the sweep before when it begins, and
+  double unseen_factor = 1.5;     ///< a greater factor: if it did not, it is glass that the ring hears
   int good_again = 3;             ///< sweeps without a fault of form until it is forgotten
   double gone = 0.15;             ///< of the samples at most should still meet something: a silence is no wonder
   double people_stay = 3.0;       ///< [s] then those who were all that was seen may have left; walls have not
@@ -141,6 +143,8 @@ class ScannerWatch {
   void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
+  /// The ring has borne the scanner out, and every sweep since was as the one before let expect.
+  [[nodiscard]] bool is_glass(const RangeLaw& law) const;
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
@@ -169,7 +173,8 @@ class ScannerWatch {
   int of_map_row_ = 0;
   NearThings near_;
   RingCheck rings_;
-  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long
+  int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
+  Time fits_rings_{};  ///< when they last bore it out; never, if what came since does not follow from that sweep
   bool has_ring_ = false;
   Pose2 base_from_sensor_;
   SweepForm form_;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
 #include "docent/collision_avoidance/plausibility/ring_for_test.h"
@@ -95,6 +96,24 @@ TEST_F(Watched, SilenceInTheMiddleOfAHallIsNoWonderAndItCreeps) {
   at.theta = Angle::degrees(20);
   EXPECT_EQ(drive(0.3, {}, 0.3), "no beam of the front laser ends anywhere");
   EXPECT_GT(speed(), 0.0);
+  EXPECT_EQ(unread(), 0);
+}
+
+TEST_F(Watched, SilenceIsNoWonderEitherWhereTheMapKnowsNothingYet) {
+  room = {};
+  room.max_range = 4.0;
+  room.box(-3, -30, 40, 30);
+  watch = ScannerWatch{"front laser", limits, std::make_shared<const OccupancyGrid>()};  // it explores
+  const auto believe = [this] { watch.believe(time_from_seconds(time), {}, 1.0); };
+  at = {0.0, 0.0, Angle::degrees(180)};
+  believe();
+  EXPECT_EQ(drive(0.5, {}, 0.0), "");
+  at = {0.9, 0.0, Angle::degrees(20)};  // turned away from the only wall in reach
+  for (int i = 0; i < 20; ++i) {
+    believe();
+    EXPECT_EQ(drive(0.3, {}, 0.0), "no beam of the front laser ends anywhere");
+    EXPECT_GT(speed(), 0.0) << "it would stand for ever";
+  }
   EXPECT_EQ(unread(), 0);
 }
 
@@ -244,13 +263,30 @@ class WatchedWithRing : public Watched {
       at.theta = at.theta + Angle::radians(0.1 * turn_rate);
       SensorSweep sweep = room.sweep(time, at);
       if (lie) lie(sweep);
-      ring.hear(time, room, at, at);
+      ring.hear(time, glass ? *glass : room, at, at);
       believed = watch.judge(sweep, at, true, {}, ring.echoes.all());
     }
     return reason();
   }
   RingForTest ring;
+  std::optional<RoomForTest> glass;  ///< what the ring hears instead, and the laser sees through
 };
+
+TEST_F(WatchedWithRing, GlassThatItDrivesUpToIsNoLieButALieThatBeginsIs) {
+  room.walls.clear();
+  room.discs.clear();
+  room.box(-2, -1.6, 2.2, 1.4);
+  EXPECT_EQ(turn(2.0, 0.3), "");
+  glass = room;
+  glass->walls.clear();
+  glass->box(-0.9, -0.7, 1.0, 0.6);
+  EXPECT_EQ(turn(3.0, 0.3), "") << "nobody has a map of it, and it would stand for ever";
+  EXPECT_EQ(unread(), 0);
+  const Lie twice = [](SensorSweep& sweep) { each(sweep, [](float range) { return 2.2F * range; }); };
+  EXPECT_NE(turn(0.6, 0.3, twice), "");
+  watch = ScannerWatch{"front laser", limits, nullptr};
+  EXPECT_NE(turn(1.0, 0.0), "") << "from the start nobody can tell glass from a lie";
+}
 
 TEST_F(WatchedWithRing, NamesAnOffsetAndAFactorFromTheStartBeforeItMoves) {
   room.walls.clear();

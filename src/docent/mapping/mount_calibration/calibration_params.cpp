@@ -44,6 +44,8 @@ Result<void> MountCalibratorParams::validate() const {
   if (!(doubt_heading >= 0.0 && doubt_heading <= 45.0)) return fail("doubt_heading must be 0..45 degrees");
   if (!(doubt_position >= 0.0 && doubt_position <= 0.5)) return fail("doubt_position must be 0..0.5 m");
   if (!(unknown_way >= 0.0)) return fail("unknown_way must be >= 0 m");
+  if (!(borne_out_way >= 0.0)) return fail("borne_out_way must be >= 0 m");
+  if (borne_out_pairs < 1) return fail("borne_out_pairs must be > 0");
   if (!(unknown_speed > 0.0 && mirrored_speed > 0.0)) return fail("unknown_speed and mirrored_speed must be > 0 m/s");
   return {};
 }

@@ -75,6 +75,8 @@ struct MountCalibratorParams {
   double unknown_speed = 0.3;    ///< [m/s], > 0: so fast at most until mounts are known
   double mirrored_speed = 0.1;   ///< [m/s], > 0: and for ever while one mirrors left and right
   double unknown_way = 60.0;     ///< [m], >= 0: but no longer than that: there are halls in which nothing is to be seen
+  double borne_out_way = 10.0;   ///< [m], >= 0: after it they need not be known as well as that, if so many
+  int borne_out_pairs = 20;      ///< > 0: pairs of sweeps bear them out
   bool corrects = true;          ///< drives with what it has found; false: it is named alone
   template <class V>
   void visit(V& v) {

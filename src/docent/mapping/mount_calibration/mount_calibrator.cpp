@@ -18,7 +18,8 @@ constexpr double kOrdinaryPair = 9.0;    // squared sigmas; who meets another on
 constexpr std::size_t kAnd = 5;          // characters
 constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled
 constexpr double kMuchBetter = 0.6;      // of that, with another mount
-constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more
+constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more,
+constexpr double kTakenBack = 1.0;       // of it: if the standard deviation is that small, too
 constexpr double kKnownEnough = 1.0;     // of the limit from which on robot.yaml is contradicted: a standard deviation
 constexpr double kHardlyKnown = 2.0;     // likewise, however large the error seems
 constexpr double kMostContradict = 6.0;  // mean squared sigmas: half of the pairs contradict the estimate
@@ -49,13 +50,6 @@ bool is_elsewhere(const MountEstimate& now, const MountEstimate& before) {
          is_beyond_doubt(kMountY, a.y - b.y);
 }
 
-/// What of a scanner contradicts robot.yaml.
-struct Contradictions {
-  bool is_turned = false;
-  bool is_displaced = false;
-  bool is_late = false;
-};
-
 /// Worth to be told, after what was told last.
 bool is_news(const MountEstimate& now, const MountEstimate& told) {
   constexpr double kTurn = 0.3 * kDegree;
@@ -73,10 +67,8 @@ bool is_news(const MountEstimate& now, const MountEstimate& told) {
 /// Puts it into words.
 void say(CalibratedScanner& scanner, const Contradictions& what, const NominalScanner& nominal) {
   const MountEstimate& now = scanner.estimate;
-  const auto names = [&](const char* kind) { return scanner.finding.find(kind) != std::string::npos; };
-  const bool is_as_before =
-      names("turned") == what.is_turned && names("displaced") == what.is_displaced && names("stamps") == what.is_late;
-  if (is_as_before && !is_news(now, scanner.told)) return;
+  if (scanner.named == what && !is_news(now, scanner.told)) return;
+  scanner.named = what;
   scanner.told = now;
   scanner.finding.clear();
   const Pose2& found = now.state.base_from_sensor;
@@ -105,7 +97,7 @@ std::string mirrored(const NominalScanner& scanner) {
 }  // namespace
 
 MountCalibrator::MountCalibrator(const MountCalibratorParams& params, std::vector<NominalScanner> scanners)
-    : params_{params}, nominal_{std::move(scanners)} {
+    : params_{params}, nominal_{std::move(scanners)}, is_released_{nominal_.empty()} {
   for (const NominalScanner& scanner : nominal_) {
     followers_.push_back({ScanFollower{params.follower}, {}, {}, vague_prior(scanner.base_from_sensor, params.fit), 0});
     CalibratedScanner result;
@@ -184,22 +176,23 @@ bool MountCalibrator::work() {
   return is_new;
 }
 
-void MountCalibrator::forget_old(Follower& follower, const MountEstimate& before) const {
-  if (follower.pairs.size() + follower.remembered < 2 * kNewest || follower.pairs.size() < kNewest) return;
+bool MountCalibrator::forget_old(Follower& follower, const MountEstimate& before) const {
+  if (follower.pairs.size() + follower.remembered < 2 * kNewest || follower.pairs.size() < kNewest) return false;
   double strange = 0.0;
   for (std::size_t i = follower.pairs.size() - kNewest; i < follower.pairs.size(); ++i)
     strange += std::min(9.0, residual_of(follower.pairs[i], before.state, params_.fit));
-  if (strange < kStrange * static_cast<double>(kNewest)) return;
+  if (strange < kStrange * static_cast<double>(kNewest)) return false;
   const std::vector<MotionPair> newest(follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest),
                                        follower.pairs.end());
   const MountPrior vague = vague_prior(before.state.base_from_sensor, params_.fit);
   const MountEstimate now = fit_mount(newest, vague, params_.fit);
-  if (now.misfit > kMuchBetter * strange / static_cast<double>(kNewest)) return;
+  if (now.misfit > kMuchBetter * strange / static_cast<double>(kNewest)) return false;
   // Wheels that slip on carpet are strange all day: another mount it is only if that is elsewhere beyond doubt.
-  if (!is_elsewhere(now, before)) return;
+  if (!is_elsewhere(now, before)) return false;
   // Somebody has knocked against it, or the robot was mended.
   follower.pairs.erase(follower.pairs.begin(), follower.pairs.end() - static_cast<std::ptrdiff_t>(kNewest));
   follower.remembered = 0;
+  return true;
 }
 
 void MountCalibrator::forget_delay(Follower& follower, const MountEstimate& estimate) const {
@@ -226,10 +219,10 @@ void MountCalibrator::forget_delay(Follower& follower, const MountEstimate& esti
 void MountCalibrator::fit(std::size_t scanner) {
   Follower& follower = followers_[scanner];
   forget_delay(follower, results_[scanner].estimate);
-  const std::size_t before = follower.pairs.size() + follower.remembered;
-  forget_old(follower, results_[scanner].estimate);
-  if (follower.pairs.size() + follower.remembered < before)
+  if (forget_old(follower, results_[scanner].estimate)) {
     follower.prior = vague_prior(nominal_[scanner].base_from_sensor, params_.fit);
+    is_released_ = false;
+  }
   const std::vector<MotionPair> pairs(follower.pairs.begin(), follower.pairs.end());
   results_[scanner].estimate = fit_mount(pairs, follower.prior, params_.fit);
   results_[scanner].pairs = pairs.size() + follower.remembered;
@@ -245,45 +238,58 @@ void MountCalibrator::judge(std::size_t scanner) {
   const double y = estimate.state.base_from_sensor.y - nominal.y;
   const bool has_pairs = result.pairs >= static_cast<std::size_t>(params_.fewest_pairs);
   const bool has_consent = estimate.misfit <= kMostContradict;
-  // What was corrected stays so until it is clearly none any more.
+  // What was named and is used stays so while the next corridor contradicts it: only who knows well that there is
+  // hardly anything takes it back.
   const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
-    const double least = is_so ? kHysteresis * limit : limit;
-    // Nothing is said of what is hardly known. What is named and used stays so while the next corridor contradicts it.
+    if (is_so) return std::abs(value) >= kHysteresis * limit || sigma > kTakenBack * limit;
+    // Nothing is said of what is hardly known.
     const bool is_known_enough =
-        is_so || (has_consent && (sigma <= kKnownEnough * limit ||
-                                  (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit)));
-    return has_pairs && is_known_enough && is_beyond(value, sigma, least, params_.sigmas);
+        has_consent &&
+        (sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit));
+    return has_pairs && is_known_enough && is_beyond(value, sigma, limit, params_.sigmas);
   };
-  const bool is_turned = contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree,
-                                     result.base_from_sensor.theta.radians() != nominal.theta.radians());
-  const bool is_displaced_before =
-      result.is_contradicted && (result.base_from_sensor.x != nominal.x || result.base_from_sensor.y != nominal.y);
-  const bool is_displaced =
-      contradicts(std::hypot(x, y), estimate.sigma_position(), params_.named_position, is_displaced_before);
-  const bool is_late = contradicts(estimate.state.delay, kDelaysErr * estimate.sigma(kMountDelay), params_.named_delay,
-                                   result.delay != 0.0);
-  say(result, {is_turned, is_displaced, is_late}, nominal_[scanner]);
-  result.is_contradicted = is_turned || is_displaced || is_late;
+  const Contradictions what{
+      contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree, result.named.is_turned),
+      contradicts(std::hypot(x, y), estimate.sigma_position(), params_.named_position, result.named.is_displaced),
+      contradicts(estimate.state.delay, kDelaysErr * estimate.sigma(kMountDelay), params_.named_delay,
+                  result.named.is_late)};
+  say(result, what, nominal_[scanner]);
   result.base_from_sensor = nominal;
   result.delay = 0.0;
-  if (params_.corrects && is_turned) result.base_from_sensor.theta = estimate.state.base_from_sensor.theta;
-  if (params_.corrects && is_displaced) {
+  if (params_.corrects && what.is_turned) result.base_from_sensor.theta = estimate.state.base_from_sensor.theta;
+  if (params_.corrects && what.is_displaced) {
     result.base_from_sensor.x = estimate.state.base_from_sensor.x;
     result.base_from_sensor.y = estimate.state.base_from_sensor.y;
   }
-  if (params_.corrects && is_late) result.delay = estimate.state.delay;
+  if (params_.corrects && what.is_late) result.delay = estimate.state.delay;
   // A robot that speeds up and slows down with each corridor that contradicts another one is no use to anybody.
   const double known = result.is_known ? kStaysKnown : 1.0;
   result.is_known = has_pairs && estimate.sigma(kMountHeading) <= known * params_.known_heading * kDegree &&
                     estimate.sigma_position() <= known * params_.known_position;
   result.is_settled = result.is_known && estimate.sigma(kMountHeading) <= params_.settled_heading * kDegree &&
                       estimate.sigma_position() <= params_.settled_position;
+  result.is_borne_out = is_borne_out(result);
+  is_released_ = is_released_ || std::all_of(results_.begin(), results_.end(),
+                                             [](const auto& one) { return one.is_known || one.is_borne_out; });
   // What two or three pairs say of their own errors is worth nothing.
   result.doubt_heading = params_.doubt_heading * kDegree;
   result.doubt_position = params_.doubt_position;
   if (!has_pairs) return;
   result.doubt_heading = std::min(result.doubt_heading, estimate.sigma(kMountHeading));
   result.doubt_position = std::min(result.doubt_position, estimate.sigma_position());
+}
+
+/// Where visitors walk along a mount is known well only after a long way. Whoever has seen it from many pairs, hardly
+/// worse than that, and by no more elsewhere than chance may have it, drives on as the others do.
+bool MountCalibrator::is_borne_out(const CalibratedScanner& scanner) const {
+  constexpr double kHardly = 2.0;  // of the errors up to which a mount counts as known
+  const double heading = scanner.estimate.sigma(kMountHeading);
+  const double position = scanner.estimate.sigma_position();
+  const Pose2 off = inverse(scanner.base_from_sensor) * scanner.estimate.state.base_from_sensor;
+  return way_ >= params_.borne_out_way && scanner.pairs >= static_cast<std::size_t>(params_.borne_out_pairs) &&
+         heading <= kHardly * params_.known_heading * kDegree && position <= kHardly * params_.known_position &&
+         std::abs(off.theta.radians()) <= std::max(heading, params_.named_heading * kDegree) &&
+         norm(off.position()) <= std::max(position, params_.named_position);
 }
 
 CalibratedBase MountCalibrator::base() const {

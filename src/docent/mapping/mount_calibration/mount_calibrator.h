@@ -21,19 +21,28 @@ struct NominalScanner {
   bool is_upside_down = false;  ///< it is said to hang, and its sweeps come here turned over
 };
 
+/// What of a scanner contradicts robot.yaml, beyond doubt.
+struct Contradictions {
+  bool is_turned = false;
+  bool is_displaced = false;
+  bool is_late = false;
+  bool operator==(const Contradictions&) const = default;
+};
+
 /// What is known of a scanner.
 struct CalibratedScanner {
   MountEstimate estimate;
-  std::size_t pairs = 0;         ///< that it comes of
-  bool is_known = false;         ///< the errors of heading and place are small
-  bool is_settled = false;       ///< and so small that a look now and then will do
-  bool is_contradicted = false;  ///< robot.yaml says otherwise, beyond doubt
-  Pose2 base_from_sensor;        ///< to be used: as robot.yaml has it, or as it was found
-  double delay = 0.0;            ///< [s] to be used
-  double doubt_heading = 0.0;    ///< [rad] standard deviation of what is to be used
-  double doubt_position = 0.0;   ///< [m] likewise
-  std::string finding;           ///< what contradicts robot.yaml, in words; empty: nothing
-  MountEstimate told;            ///< that the words are of: who is told anew with every sweep listens no more
+  std::size_t pairs = 0;        ///< that it comes of
+  bool is_known = false;        ///< the errors of heading and place are small
+  bool is_settled = false;      ///< and so small that a look now and then will do
+  bool is_borne_out = false;    ///< what is to be used fits the drive so far: no reason to be slow any more
+  Contradictions named{};       ///< robot.yaml says otherwise
+  Pose2 base_from_sensor;       ///< to be used: as robot.yaml has it, or as it was found
+  double delay = 0.0;           ///< [s] to be used
+  double doubt_heading = 0.0;   ///< [rad] standard deviation of what is to be used
+  double doubt_position = 0.0;  ///< [m] likewise
+  std::string finding;          ///< what contradicts robot.yaml, in words; empty: nothing
+  MountEstimate told;           ///< that the words are of: who is told anew with every sweep listens no more
 };
 
 /// The base as the scanners see it.
@@ -64,7 +73,7 @@ class MountCalibrator {
   [[nodiscard]] CalibratedBase base() const;
   /// Mounts are not known, and it may be that a few metres more will tell.
   /// A scanner that mirrors left and right slows it down for ever.
-  [[nodiscard]] bool is_slow() const { return is_mirrored() || (!is_known() && way_ < params_.unknown_way); }
+  [[nodiscard]] bool is_slow() const { return is_mirrored() || (!is_released_ && way_ < params_.unknown_way); }
   [[nodiscard]] bool is_known() const;        ///< all mounts are
   [[nodiscard]] bool is_mirrored() const;     ///< some scanner's left and right are, see TurningSide
   [[nodiscard]] std::string finding() const;  ///< all that contradicts robot.yaml, in words; empty: nothing
@@ -87,14 +96,17 @@ class MountCalibrator {
   }
   /// A clock was set, or a driver stamps otherwise than before: the mount is as it was, the delay is another one.
   void forget_delay(Follower& follower, const MountEstimate& estimate) const;
-  void forget_old(Follower& follower, const MountEstimate& before) const;
+  /// @returns whether it did: the mount is not where it was
+  bool forget_old(Follower& follower, const MountEstimate& before) const;
   void judge(std::size_t scanner);
+  [[nodiscard]] bool is_borne_out(const CalibratedScanner& scanner) const;
 
   MountCalibratorParams params_;
   std::vector<NominalScanner> nominal_;
   std::vector<Follower> followers_;
   std::vector<CalibratedScanner> results_;
-  double way_ = 0.0;  ///< [m] that it has driven
+  double way_ = 0.0;          ///< [m] that it has driven
+  bool is_released_ = false;  ///< the drive has borne out all mounts, and nothing was knocked since
   motion_models::UnbrokenOdometry unbroken_{motion_models::BaseReach::of_any()};
   motion_models::OdometryHistory odometry_{std::chrono::seconds{6}};
 };

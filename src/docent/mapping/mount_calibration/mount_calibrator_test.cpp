@@ -18,8 +18,9 @@ struct Case {
   std::uint64_t seed = 1;
 };
 
-MountCalibrator driven(const Case& one, const Pose2& nominal, bool has_people = false) {
-  MountCalibrator calibrator{{}, {{"front", nominal}}};
+MountCalibrator driven(const Case& one, const Pose2& nominal, bool has_people = false,
+                       const MountCalibratorParams& params = {}) {
+  MountCalibrator calibrator{params, {{"front", nominal}}};
   testing::TestDrive drive{one.truth, one.late, one.odometry, one.seed};
   drive.field = one.field;
   if (has_people)  // they walk along beside the robot and about in the hall
@@ -165,6 +166,58 @@ TEST(MountCalibrator, RemembersUntilTheScannersSayOtherwise) {
   EXPECT_TRUE(second.is_known());
   expect_near(second, truth, 0.03, 1.0);
   EXPECT_NE(second.finding(), "");
+}
+
+/// As if a drive had said so.
+void tell(MountCalibrator& calibrator, double degrees, double sigma_degrees, double x = 0.1, double sigma_x = 0.01) {
+  constexpr double kRadian = std::numbers::pi / 180.0;
+  MountEstimate estimate{.state = {.base_from_sensor = {x, 0.0, Angle::degrees(degrees)}}};
+  estimate.covariance.diagonal().setConstant(1e-6);
+  estimate.covariance(kMountHeading, kMountHeading) = sigma_degrees * sigma_degrees * kRadian * kRadian;
+  estimate.covariance(kMountX, kMountX) = sigma_x * sigma_x;
+  calibrator.remember(0, estimate, 40);
+}
+
+TEST(MountCalibrator, WhatIsNamedStaysUntilASmallErrorSaysOtherwise) {
+  MountCalibrator calibrator{{}, {{"front", {0.1, 0.0, {}}}}};
+  const auto names = [&](const char* what) { return calibrator.finding().find(what) != std::string::npos; };
+  tell(calibrator, 3.0, 2.0, 0.16, 0.04);
+  EXPECT_EQ(calibrator.finding(), "") << "hardly known";
+  tell(calibrator, 3.0, 0.3, 0.16, 0.01);
+  EXPECT_TRUE(names("turned"));
+  EXPECT_TRUE(names("displaced"));
+  tell(calibrator, 2.0, 3.0, 0.14, 0.05);
+  EXPECT_TRUE(names("turned")) << "the next corridor contradicts it";
+  EXPECT_TRUE(names("displaced"));
+  tell(calibrator, 0.3, 3.0, 0.11, 0.05);
+  EXPECT_TRUE(names("turned")) << "and nobody knows better";
+  EXPECT_NE(calibrator.scanners().front().base_from_sensor.theta.radians(), 0.0) << "it is used, too";
+  tell(calibrator, 0.3, 0.4, 0.105, 0.01);
+  EXPECT_EQ(calibrator.finding(), "") << "it is known well that there is nothing";
+}
+
+TEST(MountCalibrator, IsNotSlowAgainWhenItsErrorGrows) {
+  MountCalibrator calibrator{{}, {{"front", {0.1, 0.0, {}}}}};
+  EXPECT_TRUE(calibrator.is_slow());
+  tell(calibrator, 0.0, 0.3);
+  EXPECT_FALSE(calibrator.is_slow());
+  tell(calibrator, 0.0, 2.7);
+  EXPECT_FALSE(calibrator.is_known());
+  EXPECT_FALSE(calibrator.is_slow());
+  EXPECT_FALSE((MountCalibrator{{}, {}}.is_slow())) << "a base of sonars has no mounts to find";
+}
+
+TEST(MountCalibrator, WhatHardlyIsKnownIsBorneOutByAWay) {
+  const Pose2 mount{0.1, 0.0, {}};
+  MountCalibratorParams params;
+  const double sigma = driven({.truth = mount, .way = 14.0}, mount).scanners().front().estimate.sigma(kMountHeading);
+  params.known_heading = sigma * 180.0 / std::numbers::pi / 1.5;
+  const auto long_way = driven({.truth = mount, .way = 14.0}, mount, false, params);
+  EXPECT_FALSE(long_way.is_known());
+  EXPECT_FALSE(long_way.is_slow());
+  EXPECT_TRUE(driven({.truth = mount, .way = 8.0}, mount, false, params).is_slow()) << "a way that is too short";
+  params.known_heading /= 4.0;
+  EXPECT_TRUE(driven({.truth = mount, .way = 14.0}, mount, false, params).is_slow()) << "known far too badly";
 }
 
 TEST(MountCalibrator, IsTheSameEachTime) {

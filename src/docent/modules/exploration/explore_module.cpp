@@ -100,8 +100,10 @@ class ExploreModule final : public Module {
                                           [this](const auto&) { surveyor_.note_steering(bus_.now()); });
     bus_.subscribe<docent_msgs::ExplorationOrder>(
         topics::kExplorationOrder, [this](const auto& order) { obey(parse<ExplorationOrder>(order.order)); });
-    bus_.subscribe<docent_msgs::AvoidState>(
-        topics::kAvoidState, [this](const auto& state) { surveyor_.note_hindrance(hindrance_of(state.reason)); });
+    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this](const auto& state) {
+      const bool is_fault = state.state == "stopped" && !parse<ReasonWord>(state.reason);
+      surveyor_.note_hindrance(hindrance_of(state.reason), is_fault ? state.reason : "");
+    });
     bus_.every(kTargetPeriod, [this] { aim(); });
     bus_.every(kPlanPeriod, [this] { plan(); });
     bus_.every(kMapPeriod, [this] { publish_map(surveyor_.map()); });

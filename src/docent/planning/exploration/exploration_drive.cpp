@@ -145,6 +145,7 @@ void ExplorationDrive::go_home(const OccupancyGrid& map, Point2 robot, Time now)
   const bool is_lost = way_.empty() && is_stuck_for(params_.enclosed, now);
   if (!is_there && !is_lost && held_up_on_way_home_ < kTriesHome) return;
   state_ = State::arrived;
+  is_enclosed_ = is_lost && !is_there;
   way_.clear();
 }
 

@@ -67,6 +67,8 @@ class ExplorationDrive {
   [[nodiscard]] Ahead ahead(Point2 robot) const;
 
   [[nodiscard]] State state() const { return state_; }
+  /// It has ended where it stood, for no way was open that leads home; else it was held up on all of them.
+  [[nodiscard]] bool is_enclosed() const { return is_enclosed_; }
   [[nodiscard]] std::size_t frontier() const { return frontier_; }  ///< unknown cells that it can go to
   [[nodiscard]] const Explorer& explorer() const { return explorer_; }
   [[nodiscard]] const std::vector<Point2>& way() const { return way_; }  ///< [m], map
@@ -118,6 +120,7 @@ class ExplorationDrive {
   std::optional<Time> progress_;
   std::optional<Time> stuck_;  ///< since when there is no way on
   std::size_t held_up_on_way_home_ = 0;
+  bool is_enclosed_ = false;  ///< in the end
 };
 
 }  // namespace docent::planning

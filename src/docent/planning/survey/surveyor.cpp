@@ -167,14 +167,18 @@ std::optional<OccupancyGrid> Surveyor::finish(Time now) {
   const auto here = frame_.map_from_base();
   const Point2 home = alignment_.site_from_survey() * start_.position();
   is_away_ = order_ == ExplorationOrder::by_itself && here && distance(here->position(), home) > kAway;
-  if (is_away_) {
-    char text[96];
-    std::snprintf(text, sizeof text, "the robot stands %.1f m from its home", distance(here->position(), home));
-    warning_ += (warning_.empty() ? "" : "; ") + std::string{text};
-  }
+  if (is_away_) warning_ += (warning_.empty() ? "" : "; ") + why_away(distance(here->position(), home));
   unreached_ = drive_.explorer().unreached(finished->map);
   keep_place(now);
   return std::move(finished->map);
+}
+
+/// @param metres  from home
+std::string Surveyor::why_away(double metres) const {
+  char text[160];
+  std::snprintf(text, sizeof text, "the robot stands %.1f m from its home: %s", metres,
+                drive_.is_enclosed() ? "it knew no way there" : "it was held up on its ways there");
+  return text + (hindering_fault_.empty() ? "" : ", while " + hindering_fault_);
 }
 
 /// As sure as it is at worst: nobody knows how it moves until the next process begins.

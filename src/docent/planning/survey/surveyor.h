@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "docent/planning/exploration/exploration_drive.h"
@@ -51,8 +52,12 @@ class Surveyor {
 
   // What the robot senses and is told.
   void move(Time stamp, const collision_avoidance::BaseState& state) { frame_.move(stamp, state); }
-  void note_people(std::span<const TrackedPerson> people);                                ///< in odometry's own frame
-  void note_hindrance(ExplorationDrive::Hindrance hindrance) { hindrance_ = hindrance; }  ///< what avoidance says
+  void note_people(std::span<const TrackedPerson> people);  ///< in odometry's own frame
+  /// What avoidance says. @param fault  in words, what is broken or missing that it stands for; empty: nothing
+  void note_hindrance(ExplorationDrive::Hindrance hindrance, std::string fault = {}) {
+    hindrance_ = hindrance;
+    hindering_fault_ = std::move(fault);
+  }
   void note_stop(bool is_stopped) { is_stopped_ = is_stopped; }  ///< somebody has pressed the stop button
   void note_steering(Time now) { steered_ = now; }               ///< somebody steers by hand
   /// A laser is found to be mounted elsewhere: what was drawn so far is forgotten, where that matters.
@@ -117,6 +122,7 @@ class Surveyor {
   [[nodiscard]] bool is_held(Time now) const;
   [[nodiscard]] ExplorationDrive::Hindrance hindrance() const;
   void keep_place(Time now) const;
+  [[nodiscard]] std::string why_away(double metres) const;
 
   SurveyorParams params_;
   double body_radius_;
@@ -133,6 +139,7 @@ class Surveyor {
   ExplorationDrive drive_;
   ExplorationOrder order_;
   ExplorationDrive::Hindrance hindrance_ = ExplorationDrive::Hindrance::unknown;
+  std::string hindering_fault_;
   bool is_stopped_ = false;
   std::optional<Time> steered_;
   bool is_done_ = false;

@@ -254,11 +254,15 @@ TEST_F(Surveyor, AMapThatEndsAwayFromHomeIsNotDone) {
   begin();
   for (int i = 0; i < 30; ++i) sense(home * Pose2{0.08 * i, 0.0, {}});
   const Pose2 far = home * Pose2{0.08 * 29, 0.0, {}};
+  surveyor->note_hindrance(ExplorationDrive::Hindrance::unknown, "no beam of the front laser ends anywhere");
   for (int i = 0; i < 900 && !surveyor->is_done(); ++i) stand(far, 1);  // something holds it for ever
   ASSERT_TRUE(surveyor->is_done());
   ASSERT_TRUE(surveyor->finish(now));
   EXPECT_EQ(phase(), SurveyPhase::stranded);
-  EXPECT_NE(surveyor->report().warning.find("from its home"), std::string::npos);
+  const std::string warning = surveyor->report().warning;
+  EXPECT_NE(warning.find("from its home: it was held up on its ways there, while no beam of the front laser ends"),
+            std::string::npos)
+      << warning;
 }
 
 TEST_F(Surveyor, BeginsTheMapAnewWhenALaserIsFoundElsewhere) {
