@@ -18,7 +18,8 @@ MUSEUM = ROOT / "museums" / "bonn"
 PASSWORD = "a long way from Bonn"
 # One address calls for all: what strangers may do in a while is another matter, and another test.
 GENEROUS = ["web.api.reads_per_second=1000", "web.api.writes_per_second=1000", "web.api.logins_per_minute=10000", "web.messages_per_second=1000",
-            "web.messages_of_address=1000", "web.message_burst=1000", "web.message_burst_of_address=1000"]
+            "web.messages_of_address=1000", "web.message_burst=1000", "web.message_burst_of_address=1000", "web.uplink_messages_per_second=10000",
+            "web.uplink_calls_per_second=1000", "web.uplink_writes_per_second=1000"]
 
 
 def free_port():
@@ -112,7 +113,8 @@ class Stage:
         port = free_port()
         file = Path(self.folder.name) / "far.key"
         file.write_text(key + "\n")
-        self.far_gateway = self.start(["gateway", "--from", f"{HOST}:{self.uplink_port}", "--key", str(file), "--port", str(port)], "far", port)
+        self.far_gateway = self.start(["gateway", "--from", f"{HOST}:{self.uplink_port}", "--key", str(file), "--port", str(port),
+                                       "--calls-per-second", "10000", "--messages-per-second", "10000"], "far", port)
         return port
 
     def one_more_far(self, key):
