@@ -24,6 +24,8 @@ constexpr double kKnownEnough = 1.0;     // of the limit from which on robot.yam
 constexpr double kHardlyKnown = 2.0;     // likewise, however large the error seems
 constexpr double kMostContradict = 6.0;  // mean squared sigmas: half of the pairs contradict the estimate
 constexpr double kBeyondDoubt = 8.0;     // standard deviations
+constexpr double kVisitorsAbout = 7.5;   // mean squared sigmas: most of what it sees walks along, but what many pairs
+                                         // have beyond doubt is so all the same
 constexpr double kElsewhere = 4.0;       // standard deviations
 constexpr double kDelaysErr = 1.5;       // of a delay's stated error: a few turns among people err alike
 constexpr double kStaysKnown = 1.5;      // of the errors up to which a mount counts as known
@@ -229,6 +231,17 @@ void MountCalibrator::fit(std::size_t scanner) {
   judge(scanner);
 }
 
+bool is_named(const Deviation& off, std::size_t pairs, double misfit, const MountCalibratorParams& params) {
+  if (pairs < static_cast<std::size_t>(params.fewest_pairs)) return false;
+  const bool is_beyond_doubt = std::abs(off.value) > kBeyondDoubt * off.sigma;
+  const bool has_many = misfit <= kVisitorsAbout && pairs >= static_cast<std::size_t>(params.fit.few_pairs);
+  const bool has_consent = misfit <= kMostContradict || (is_beyond_doubt && has_many);
+  // Nothing is said of what is hardly known.
+  const bool is_known_enough =
+      off.sigma <= kKnownEnough * off.limit || (is_beyond_doubt && off.sigma <= kHardlyKnown * off.limit);
+  return has_consent && is_known_enough && is_beyond(off.value, off.sigma, off.limit, params.sigmas);
+}
+
 void MountCalibrator::judge(std::size_t scanner) {
   CalibratedScanner& result = results_[scanner];
   const MountEstimate& estimate = result.estimate;
@@ -237,16 +250,11 @@ void MountCalibrator::judge(std::size_t scanner) {
   const double x = estimate.state.base_from_sensor.x - nominal.x;
   const double y = estimate.state.base_from_sensor.y - nominal.y;
   const bool has_pairs = result.pairs >= static_cast<std::size_t>(params_.fewest_pairs);
-  const bool has_consent = estimate.misfit <= kMostContradict;
   // What was named and is used stays so while the next corridor contradicts it: only who knows well that there is
   // hardly anything takes it back.
   const auto contradicts = [&](double value, double sigma, double limit, bool is_so) {
     if (is_so) return std::abs(value) >= kHysteresis * limit || sigma > kTakenBack * limit;
-    // Nothing is said of what is hardly known.
-    const bool is_known_enough =
-        has_consent &&
-        (sigma <= kKnownEnough * limit || (std::abs(value) > kBeyondDoubt * sigma && sigma <= kHardlyKnown * limit));
-    return has_pairs && is_known_enough && is_beyond(value, sigma, limit, params_.sigmas);
+    return is_named({value, sigma, limit}, result.pairs, estimate.misfit, params_);
   };
   const Contradictions what{
       contradicts(heading, estimate.sigma(kMountHeading), params_.named_heading * kDegree, result.named.is_turned),

@@ -52,6 +52,18 @@ struct CalibratedBase {
   std::string finding;
 };
 
+/// By how much an estimate differs from robot.yaml, its standard deviation, and what is named at least; in one unit.
+struct Deviation {
+  double value = 0.0;
+  double sigma = 0.0;
+  double limit = 0.0;
+};
+
+/// Whether an estimate of so many pairs contradicts robot.yaml. `misfit`: see MountEstimate. Where most of what a
+/// scanner sees walks along, half of the pairs contradict any estimate: then many pairs must have it beyond doubt.
+[[nodiscard]] bool is_named(const Deviation& off, std::size_t pairs, double misfit,
+                            const MountCalibratorParams& params);
+
 /// Finds out, while the robot drives, where its scanners are mounted and how late their stamps are, and what its
 /// odometry is worth. Each scanner by itself, from the motion that it sees: neither map nor belief is asked, which a
 /// wrong mount spoils. Deterministic; knows no wall clock.

@@ -196,6 +196,17 @@ TEST(MountCalibrator, WhatIsNamedStaysUntilASmallErrorSaysOtherwise) {
   EXPECT_EQ(calibrator.finding(), "") << "it is known well that there is nothing";
 }
 
+TEST(MountCalibrator, WhatIsBeyondDoubtIsNamedThoughMostPairsAreOfVisitors) {
+  const MountCalibratorParams params;
+  EXPECT_TRUE(is_named({0.3, 0.02, 0.03}, 40, 7.0, params));
+  EXPECT_FALSE(is_named({0.3, 0.05, 0.03}, 40, 7.0, params)) << "it may be doubted";
+  EXPECT_FALSE(is_named({0.3, 0.02, 0.03}, 20, 7.0, params)) << "few pairs agree by chance";
+  EXPECT_FALSE(is_named({0.3, 0.02, 0.03}, 40, 8.0, params)) << "hardly a pair agrees";
+  EXPECT_TRUE(is_named({0.3, 0.02, 0.03}, 20, 3.0, params));
+  EXPECT_FALSE(is_named({0.3, 0.02, 0.03}, 2, 3.0, params));
+  EXPECT_FALSE(is_named({0.01, 0.002, 0.03}, 40, 3.0, params)) << "below what is named";
+}
+
 TEST(MountCalibrator, IsNotSlowAgainWhenItsErrorGrows) {
   MountCalibrator calibrator{{}, {{"front", {0.1, 0.0, {}}}}};
   EXPECT_TRUE(calibrator.is_slow());
