@@ -41,6 +41,7 @@ class VirtualObstacles {
   VirtualObstaclesParams params_;
   std::optional<Time> stamp_;
   VirtualSweep sweep_;
+  std::vector<Point2> places_;  ///< [ranges] base frame at its stamp, of those that are less than the greatest
   Pose2 odom_from_sweep_;
 };
 

@@ -4,9 +4,15 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 namespace docent::collision_avoidance {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -40,7 +46,7 @@ Agreement agreement_of(const SweepView& seen, const Pose2& now_from_then, const 
   expect(seen, now_from_then, now, expected);
   Agreement agreement;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (expected[i] > params.surely_within * now.max_range) expected[i] = std::nanf("");
+    if (expected[i] > params.surely_within * now.max_range) expected[i] = kNothing;
     if (!std::isnan(expected[i]) && !std::isnan(now.ranges[i])) ++agreement.compared;
   }
   if (agreement.compared > 0)
@@ -52,6 +58,8 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
   RangeLaw law;
   std::vector<double> offsets;
   std::vector<double> scales;
+  offsets.reserve(expected.size());
+  scales.reserve(expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const auto should = static_cast<double>(expected[i]);
     if (std::isnan(should) || std::isnan(view.ranges[i])) continue;
@@ -68,7 +76,7 @@ RangeLaw find_law(std::span<const float> expected, const SweepView& view, const 
   }
   std::vector<float> sure{expected.begin(), expected.end()};
   for (float& range : sure)
-    if (static_cast<double>(range) > params.surely_within * view.max_range) range = std::nanf("");
+    if (static_cast<double>(range) > params.surely_within * view.max_range) range = kNothing;
   law.as_expected = law.as_law = count_by_law(sure, view, 1.0, 0.0, params);
   if (static_cast<int>(offsets.size()) < params.least / 2) return law;
   const double offset = median(offsets);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
@@ -16,6 +17,18 @@ float sample_of(double range, double min_range, double max_range) {
   return range >= max_range ? kNoAnswer : static_cast<float>(range);
 }
 
+std::shared_ptr<const SampleRays> rays_of(const SweepView& view, const std::shared_ptr<const SampleRays>& like) {
+  const std::size_t samples = view.ranges.size();
+  if (like && like->first_bearing == view.first_bearing && like->bearing_step == view.bearing_step &&
+      like->units.size() == samples)
+    return like;
+  SampleRays rays{view.first_bearing, view.bearing_step, {}};
+  rays.units.reserve(samples);
+  for (std::size_t i = 0; i < samples; ++i)
+    rays.units.push_back(unit(Angle::radians(view.first_bearing + static_cast<double>(i) * view.bearing_step)));
+  return std::make_shared<const SampleRays>(std::move(rays));
+}
+
 }  // namespace
 
 long SweepView::sample_to(Point2 in_sensor) const {
@@ -23,7 +36,8 @@ long SweepView::sample_to(Point2 in_sensor) const {
   return sample < static_cast<long>(ranges.size()) ? sample : -1;
 }
 
-SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::size_t most) {
+SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::size_t most,
+                  const std::shared_ptr<const SampleRays>& like) {
   const std::size_t beams = sweep.ranges.size();
   const std::size_t stride = std::max<std::size_t>(1, (beams + most - 1) / most);
   SweepView view;
@@ -40,6 +54,7 @@ SweepView view_of(const SensorSweep& sweep, const Pose2& odom_from_sensor, std::
     view.ranges.push_back(sample_of(middle, sweep.min_range, sweep.max_range));
     if (view.met(i)) ++view.answers;
   }
+  view.rays = rays_of(view, like);
   view.nearest.resize(samples);
   view.farthest.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {

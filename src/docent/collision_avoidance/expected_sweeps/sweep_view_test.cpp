@@ -30,6 +30,25 @@ TEST(SweepView, KeepsEveryBeamOfASmallSweepAndThinsALargeOne) {
   EXPECT_EQ(thin.sample_to(thin.place(25)), 25);
 }
 
+TEST(SweepView, TheRaysOfTheLastSweepServeAsLongAsItsFormStays) {
+  SensorSweep sweep{time_from_seconds(1.0), {}, -1.0, 0.01, 0.1, 5.0, std::vector<float>(180, 2.0F)};
+  const SweepView first = view_of(sweep, {});
+  EXPECT_EQ(view_of(sweep, {}, 180, first.rays).rays, first.rays);
+  const auto expect_own_rays = [&] {
+    const SweepView other = view_of(sweep, {}, 180, first.rays);
+    EXPECT_NE(other.rays, first.rays);
+    ASSERT_EQ(other.rays->units.size(), other.ranges.size());
+    const double last = other.first_bearing + static_cast<double>(other.ranges.size() - 1) * other.bearing_step;
+    EXPECT_EQ(other.place(other.ranges.size() - 1), 2.0 * unit(Angle::radians(last)));
+  };
+  sweep.first_bearing = -0.9;
+  expect_own_rays();
+  sweep = {time_from_seconds(1.0), {}, -1.0, 0.02, 0.1, 5.0, std::vector<float>(180, 2.0F)};
+  expect_own_rays();
+  sweep = {time_from_seconds(1.0), {}, -1.0, 0.01, 0.1, 5.0, std::vector<float>(120, 2.0F)};
+  expect_own_rays();
+}
+
 TEST(SweepView, WhatStandsStillIsExpectedWhereItIs) {
   RoomForTest room;
   room.noise = 0.0;

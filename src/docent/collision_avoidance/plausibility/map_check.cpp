@@ -6,63 +6,55 @@
 
 namespace docent::collision_avoidance {
 
+namespace {
+
+/// What is not surely a wall and known is passed through.
+OccupancyGrid passable(OccupancyGrid map) {
+  for (std::int8_t& cell : map.cells)
+    if (cell != OccupancyGrid::kUnknown && cell < 65) cell = OccupancyGrid::kFree;
+  return map;
+}
+
+}  // namespace
+
+MapCheck::MapCheck(const std::shared_ptr<const OccupancyGrid>& map, const MapCheckParams& params) : params_{params} {
+  if (!map) return;
+  map_ = std::make_shared<const sensor_models::RayCaster>(passable(*map));
+  half_cell_ = 0.5 * map->frame.resolution;
+}
+
 void MapCheck::believe(Time stamp, const Pose2& map_from_odom, double mass) {
   map_from_odom_.reset();
   if (mass >= params_.least_mass) map_from_odom_ = map_from_odom;
   believed_ = stamp;
 }
 
-float MapCheck::cast(Point2 from, Point2 ray, double reach) const {
-  // Cell by cell, Amanatides and Woo.
-  const GridFrame& frame = map_->frame;
-  CellIndex cell = frame.cell_at(from);
-  const int step_x = ray.x > 0.0 ? 1 : -1;
-  const int step_y = ray.y > 0.0 ? 1 : -1;
-  const double infinite = std::numeric_limits<double>::infinity();
-  const auto first = [&](double at, double origin, int index, double along) {
-    const double edge = origin + (index + (along > 0.0 ? 1 : 0)) * frame.resolution;
-    return along != 0.0 ? (edge - at) / along : infinite;
-  };
-  double to_x = first(from.x, frame.origin.x, cell.column, ray.x);
-  double to_y = first(from.y, frame.origin.y, cell.row, ray.y);
-  const double across_x = ray.x != 0.0 ? frame.resolution / std::abs(ray.x) : infinite;
-  const double across_y = ray.y != 0.0 ? frame.resolution / std::abs(ray.y) : infinite;
-  double range = 0.0;
-  while (range < reach) {
-    const std::int8_t value = map_->at(cell);
-    if (value >= 65) return static_cast<float>(range + 0.5 * frame.resolution);
-    if (value == OccupancyGrid::kUnknown) return std::numeric_limits<float>::quiet_NaN();
-    if (to_x < to_y) {
-      range = to_x;
-      to_x += across_x;
-      cell.column += step_x;
-    } else {
-      range = to_y;
-      to_y += across_y;
-      cell.row += step_y;
-    }
-  }
-  return kNoAnswer;
+std::vector<Point2> MapCheck::rays_of(const SweepView& view, Angle heading, std::size_t every) const {
+  std::vector<Point2> rays(view.ranges.size());
+  for (std::size_t i = 0; i < rays.size(); i += every)
+    rays[i] = unit(heading + Angle::radians(view.first_bearing + static_cast<double>(i) * view.bearing_step));
+  return rays;
 }
 
-void MapCheck::expect_at(const SweepView& view, const Pose2& map_from_sensor, std::size_t every,
+void MapCheck::expect_at(const SweepView& view, Point2 in_map, std::span<const Point2> rays, std::size_t every,
                          std::vector<float>& expected) const {
   expected.assign(view.ranges.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < expected.size(); i += every) {
-    const Angle bearing =
-        map_from_sensor.theta + Angle::radians(view.first_bearing + static_cast<double>(i) * view.bearing_step);
-    expected[i] = cast(map_from_sensor.position(), unit(bearing), view.max_range);
+    const auto range = map_->cast(in_map, rays[i], view.max_range, 0.0);
+    if (range) expected[i] = *range < view.max_range ? static_cast<float>(*range + half_cell_) : kNoAnswer;
   }
 }
 
 bool MapCheck::is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const {
+  const std::size_t every = 3 * params_.every;
   const double needed = static_cast<double>(law.as_law) / law.compared - params_.as_well;
   std::vector<float> expected;
   for (const double turn :
        {-params_.off_turn, -0.5 * params_.off_turn, 0.0, 0.5 * params_.off_turn, params_.off_turn}) {
+    const std::vector<Point2> rays = rays_of(view, map_from_sensor.theta + Angle::radians(turn), every);
     for (double x = -params_.off; x <= params_.off; x += params_.off_step) {
       for (double y = -params_.off; y <= params_.off; y += params_.off_step) {
-        expect_at(view, map_from_sensor * Pose2{x, y, Angle::radians(turn)}, 3 * params_.every, expected);
+        expect_at(view, map_from_sensor * Point2{x, y}, rays, every, expected);
         const RangeLaw there = find_law(expected, view, params_.law);
         if (there.compared > 0 && there.is_as_expected(needed)) return true;
       }
@@ -76,7 +68,8 @@ std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
   if (view.stamp - compared_ < seconds(params_.between)) return std::nullopt;
   compared_ = view.stamp;
   const Pose2 map_from_sensor = *map_from_odom_ * view.odom_from_sensor;
-  expect_at(view, map_from_sensor, params_.every, expected_);
+  const std::vector<Point2> rays = rays_of(view, map_from_sensor.theta, params_.every);
+  expect_at(view, map_from_sensor.position(), rays, params_.every, expected_);
   const RangeLaw law = find_law(expected_, view, params_.law);
   Finding finding;
   const auto samples =

@@ -2,11 +2,13 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
 #include "docent/collision_avoidance/expected_sweeps/sweep_view.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/sensor_models/ray_caster.h"
 
 namespace docent::collision_avoidance {
 
@@ -31,8 +33,7 @@ struct MapCheckParams {
 class MapCheck {
  public:
   /// @param map  null: there is none
-  explicit MapCheck(std::shared_ptr<const OccupancyGrid> map = nullptr, const MapCheckParams& params = {})
-      : params_{params}, map_{std::move(map)} {}
+  explicit MapCheck(const std::shared_ptr<const OccupancyGrid>& map = nullptr, const MapCheckParams& params = {});
 
   [[nodiscard]] bool has_map() const { return map_ != nullptr; }
   /// Where the robot believes to be. @param mass  of the belief there, 0..1
@@ -46,19 +47,22 @@ class MapCheck {
     bool is_nothing_near = false;   ///< the map has nothing within this scanner's reach
     bool fits = false;              ///< what answers is as the map has it, so that silence can be judged
   };
-  /// nullopt: it is not time for another comparison. O(samples * cells of a ray).
+  /// nullopt: it is not time for another comparison. O(samples), and for what may be a lie
+  /// O(samples * places).
   [[nodiscard]] std::optional<Finding> compare(const SweepView& view);
   /// [samples] of the last comparison: [m]; kNoAnswer: nothing within reach; NaN: the map does not say.
   [[nodiscard]] const std::vector<float>& expected() const { return expected_; }
 
  private:
-  void expect_at(const SweepView& view, const Pose2& map_from_sensor, std::size_t every,
+  /// [map] the directions of some samples; of the others nothing.
+  [[nodiscard]] std::vector<Point2> rays_of(const SweepView& view, Angle heading, std::size_t every) const;
+  void expect_at(const SweepView& view, Point2 in_map, std::span<const Point2> rays, std::size_t every,
                  std::vector<float>& expected) const;
-  [[nodiscard]] float cast(Point2 from, Point2 ray, double reach) const;
   [[nodiscard]] bool is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const;
 
   MapCheckParams params_;
-  std::shared_ptr<const OccupancyGrid> map_;
+  std::shared_ptr<const sensor_models::RayCaster> map_;
+  double half_cell_ = 0.0;  ///< [m] from a wall's outline to where the map has it
   std::optional<Pose2> map_from_odom_;
   Time believed_{};
   Time compared_{};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "docent/collision_avoidance/expected_sweeps/room_for_test.h"
@@ -52,6 +53,28 @@ TEST_F(MapCheckTest, AScannerInOrderIsAtItsPlace) {
   EXPECT_TRUE(found.fits);
   EXPECT_FALSE(found.lie);
   EXPECT_FALSE(look(at, at, 1.0, 0.0, 0.1).is_known);  // it may be anywhere
+}
+
+TEST_F(MapCheckTest, RaysPassWhatMayBeFreeAndEndWhereTheMapDoesNotSay) {
+  const Pose2 at{3.0, 2.0, {}};
+  OccupancyGrid grid = *map;
+  for (double x = 4.0; x < 5.0; x += 0.02)  // between free and occupied
+    grid.cells[grid.frame.index(grid.frame.cell_at({x, 2.0}))] = 40;
+  for (double x = 3.8; x < 4.2; x += 0.02)
+    for (double y = 2.8; y < 3.2; y += 0.02)
+      grid.cells[grid.frame.index(grid.frame.cell_at({x, y}))] = OccupancyGrid::kUnknown;
+  MapCheckParams params;
+  params.every = 1;
+  MapCheck check{std::make_shared<const OccupancyGrid>(grid), params};
+  const SensorSweep sweep = room.sweep(1.0, at);
+  const SweepView view = view_of(sweep, at);
+  check.believe(sweep.stamp, {}, 0.9);
+  ASSERT_TRUE(check.compare(view));
+  const auto expected_along = [&](Point2 ray) {
+    return check.expected()[static_cast<std::size_t>(view.sample_to(ray))];
+  };
+  EXPECT_NEAR(expected_along({1.0, 0.0}), 9.0, 0.1);
+  EXPECT_TRUE(std::isnan(expected_along({1.0, 1.0})));
 }
 
 TEST_F(MapCheckTest, FindsLawsAtManyPlaces) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace docent::collision_avoidance {
@@ -90,7 +89,9 @@ double OldSweeps::heading_at(Time time) const {
   return before.heading + share * (after->heading - before.heading);
 }
 
-double OldSweeps::left_by(double lag, Time since) const {
+double OldSweeps::left_by(double lag, Time since, double most) const {
+  constexpr double kRounding = 1.001;
+  const double enough = kRounding * most * most * static_cast<double>(looks_.size());
   double sum = 0.0;
   int count = 0;
   for (const Look& look : looks_) {
@@ -98,6 +99,7 @@ double OldSweeps::left_by(double lag, Time since) const {
     const double then = heading_at(look.stamp - seconds(lag)) - heading_at(look.from - seconds(lag));
     sum += (look.turn - then) * (look.turn - then);
     ++count;
+    if (sum > enough) return std::numeric_limits<double>::infinity();
   }
   return std::sqrt(sum / std::max(1, count));
 }
@@ -136,24 +138,25 @@ std::optional<double> OldSweeps::lag() const {
                                      [&](const Look& look) { return std::abs(look.turn) >= params_.least_turn; });
   if (!is_enough) return std::nullopt;
   double best_lag = 0.0;
-  double best = std::numeric_limits<double>::infinity();
-  double soon = best;
+  double best = params_.exact;
   const int lags = static_cast<int>(std::lround(params_.most_lag / params_.lag_step));
-  for (int i = 0; i <= lags; ++i) {
-    const double lag = i * params_.lag_step;
-    // Before the trail begins it is not known how the robot moved.
-    if (is_trail_cut_ && looks_.front().from - seconds(lag) < trail_.front().stamp) break;
-    const double left = left_by(lag);
-    if (lag < params_.least_lag) soon = std::min(soon, left);
-    if (left < best) {
-      best = left;
-      best_lag = lag;
-    }
+  const auto is_soon = [&](int i) { return i * params_.lag_step < params_.least_lag; };
+  // Before the trail begins it is not known how the robot moved.
+  const auto is_known = [&](double lag) {
+    return !is_trail_cut_ || looks_.front().from - seconds(lag) >= trail_.front().stamp;
+  };
+  for (int i = 0; i <= lags && is_known(i * params_.lag_step); ++i) {
+    if (is_soon(i)) continue;
+    const double left = left_by(i * params_.lag_step, {}, best);
+    if (left > best || (left == best && best_lag > 0.0)) continue;
+    best = left;
+    best_lag = i * params_.lag_step;
   }
+  if (best_lag == 0.0) return std::nullopt;
   const Time newest = looks_.back().stamp - seconds(params_.newest);
-  const double otherwise = std::min({soon, left_by_slip(), left_by(0.0, newest)});
-  const bool is_old = best_lag >= params_.least_lag && best <= params_.exact && otherwise >= params_.otherwise &&
-                      otherwise >= params_.better * best;
+  double otherwise = std::min(left_by_slip(), left_by(0.0, newest));
+  for (int i = 0; is_soon(i); ++i) otherwise = std::min(otherwise, left_by(i * params_.lag_step));
+  const bool is_old = otherwise >= params_.otherwise && otherwise >= params_.better * best;
   return is_old ? std::optional{best_lag} : std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -82,7 +83,9 @@ class OldSweeps {
   void refer_to(const SweepView& view);
   [[nodiscard]] double heading_at(Time time) const;
   /// [rad] Root mean square of what odometry of `lag` [s] ago leaves of the turns that were seen. @param since  looks
-  [[nodiscard]] double left_by(double lag, Time since = {}) const;
+  /// @param most  [rad] more need not be told exactly: infinity
+  [[nodiscard]] double left_by(double lag, Time since = {},
+                               double most = std::numeric_limits<double>::infinity()) const;
   /// [rad] Likewise, of the best mixture of a steady turn and a share of odometry's.
   [[nodiscard]] double left_by_slip() const;
   [[nodiscard]] std::optional<double> lag() const;

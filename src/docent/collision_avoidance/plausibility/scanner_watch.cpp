@@ -9,6 +9,7 @@ namespace docent::collision_avoidance {
 namespace {
 
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+constexpr std::size_t kSamples = 180;
 
 /// A run of samples as beams of the sweep that was thinned to them.
 BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSweep& sweep) {
@@ -384,7 +385,8 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   newest_ = sweep.stamp;
   has_ring_ = has_ring_ || !rings.empty();
   judge_form(sweep);
-  const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor);
+  const SweepView view = view_of(sweep, odom_from_base * sweep.base_from_sensor, kSamples, rays_of_samples_);
+  rays_of_samples_ = view.rays;
   if (!is_motion_known) {
     motion_.forget();
     old_.forget();

@@ -177,6 +177,7 @@ class ScannerWatch {
   Time fits_rings_{};  ///< when they last bore it out; never, if what came since does not follow from that sweep
   bool has_ring_ = false;
   Pose2 base_from_sensor_;
+  std::shared_ptr<const SampleRays> rays_of_samples_;  ///< of the last sweep
   SweepForm form_;
   enum class FormFault { none, units, covered, silent };
   FormFault form_fault_ = FormFault::none;

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
+
+#include "docent/geometry/point_transform.h"
 
 namespace docent::mapping {
 namespace {
@@ -38,17 +42,43 @@ MountVector difference(const MountState& a, const MountState& b) {
   return d;
 }
 
+/// A pose whose cosine and sine are at hand.
+struct PoseTransform {
+  explicit PoseTransform(const Pose2& a_from_b) : transform{a_from_b}, theta{a_from_b.theta} {}
+  [[nodiscard]] Pose2 operator*(const Pose2& b_from_c) const {
+    const auto [x, y] = transform * b_from_c.position();
+    return {x, y, theta + b_from_c.theta};
+  }
+  PointTransform transform;
+  Angle theta;
+};
+
+/// What is the same for all pairs: the state, its mount's inverse.
+struct StateAt {
+  explicit StateAt(const MountState& here) : state{here}, sensor_from_base{inverse(here.base_from_sensor)} {}
+  MountState state;
+  PoseTransform sensor_from_base;
+};
+
+/// What is the same for all states of one delay: a pair's motion as scans see it and as odometry says.
+struct PairAt {
+  PairAt(const MotionPair& pair, double delay)
+      : base{pair.base.at(delay)},
+        // Whoever turned more than odometry says did so all along the way: by half of it in the mean.
+        half{{0.0, 0.0, Angle::radians(0.5 * (pair.sensor_then_from_now.theta.radians() - base.theta.radians()))}},
+        sensor_now_from_then{inverse(pair.sensor_then_from_now)} {}
+  Pose2 base;
+  PointTransform half;
+  PoseTransform sensor_now_from_then;
+};
+
 /// What scans see of the base's motion against what they should see, in the frame of the later sweep.
-Eigen::Vector3d residual(const MotionPair& pair, const MountState& state) {
-  Pose2 base = pair.base.at(state.delay);
-  const double told = base.theta.radians();
-  const double turn = state.turn_scale * told + state.veer * base.x;
-  // Whoever turned more than odometry says did so all along the way: by half of it in the mean.
-  const Pose2 half{0.0, 0.0, Angle::radians(0.5 * (pair.sensor_then_from_now.theta.radians() - told))};
-  const Point2 at = half * (state.way_scale * base.position());
-  base = {at.x, at.y, Angle::radians(turn)};
-  const Pose2 expected = inverse(state.base_from_sensor) * base * state.base_from_sensor;
-  const Pose2 off = inverse(pair.sensor_then_from_now) * expected;
+Eigen::Vector3d residual(const PairAt& pair, const StateAt& at) {
+  const MountState& state = at.state;
+  const double turn = state.turn_scale * pair.base.theta.radians() + state.veer * pair.base.x;
+  const Point2 place = pair.half * (state.way_scale * pair.base.position());
+  const Pose2 base{place.x, place.y, Angle::radians(turn)};
+  const Pose2 off = pair.sensor_now_from_then * (at.sensor_from_base * base * state.base_from_sensor);
   return {off.x, off.y, off.theta.radians()};
 }
 
@@ -77,12 +107,16 @@ struct WeighedPair {
   Eigen::Matrix3d information;
 };
 
-double robust_cost(std::span<const WeighedPair> pairs, const MountState& state, double outlier) {
+/// @param most  a cost that is no less need not be told to its end
+double robust_cost(std::span<const WeighedPair> pairs, const MountState& state, double outlier,
+                   double most = std::numeric_limits<double>::infinity()) {
   const double square = outlier * outlier;
+  const StateAt at{state};
   double cost = 0.0;
   for (const WeighedPair& weighed : pairs) {
-    const Eigen::Vector3d r = residual(*weighed.pair, state);
+    const Eigen::Vector3d r = residual(PairAt{*weighed.pair, state.delay}, at);
     cost += square * std::log1p(r.dot(weighed.information * r) / square);
+    if (cost >= most) break;
   }
   return cost;
 }
@@ -96,17 +130,24 @@ struct LinearPair {
 
 std::vector<LinearPair> linearised(std::span<const WeighedPair> pairs, const MountState& state) {
   constexpr std::array<double, kMountUnknowns> kSteps{1e-4, 1e-4, 1e-4, 1e-3, 1e-4, 1e-4, 1e-4};
+  const StateAt here{state};
+  std::vector<StateAt> beside;
+  for (int i = 0; i < kMountUnknowns; ++i) {
+    MountVector step = MountVector::Zero();
+    step[i] = kSteps[static_cast<std::size_t>(i)];
+    beside.emplace_back(moved(state, step));
+  }
   std::vector<LinearPair> linear;
   linear.reserve(pairs.size());
   for (const WeighedPair& weighed : pairs) {
     LinearPair& one = linear.emplace_back();
+    const PairAt pair{*weighed.pair, state.delay};
+    const PairAt later{*weighed.pair, beside[kMountDelay].state.delay};
     one.information = weighed.information;
-    one.residual = residual(*weighed.pair, state);
-    for (int i = 0; i < kMountUnknowns; ++i) {
-      MountVector step = MountVector::Zero();
-      step[i] = kSteps[static_cast<std::size_t>(i)];
-      one.rows.col(i) = (residual(*weighed.pair, moved(state, step)) - one.residual) / step[i];
-    }
+    one.residual = residual(pair, here);
+    for (std::size_t i = 0; i < beside.size(); ++i)
+      one.rows.col(static_cast<Eigen::Index>(i)) =
+          (residual(i == kMountDelay ? later : pair, beside[i]) - one.residual) / kSteps[i];
   }
   return linear;
 }
@@ -152,7 +193,7 @@ MountState first_state(std::span<const WeighedPair> pairs, const MountPrior& pri
     const Angle turned = Angle::radians(2.0 * std::numbers::pi * i / kHeadings);
     state.base_from_sensor.theta = state.base_from_sensor.theta + turned;
     const double unlikely = turned.radians() / prior.sigma[kMountHeading];
-    const double cost = robust_cost(pairs, state, outlier) + unlikely * unlikely;
+    const double cost = robust_cost(pairs, state, outlier, least) + unlikely * unlikely;
     if (cost < least) {
       least = cost;
       best = state;
@@ -242,7 +283,7 @@ double MountEstimate::sigma(MountUnknown unknown) const { return std::sqrt(covar
 double MountEstimate::sigma_position() const { return std::max(sigma(kMountX), sigma(kMountY)); }
 
 double residual_of(const MotionPair& pair, const MountState& state, const MountFitParams& params) {
-  const Eigen::Vector3d r = residual(pair, state);
+  const Eigen::Vector3d r = residual(PairAt{pair, state.delay}, StateAt{state});
   return r.dot(information_of(pair, state.base_from_sensor.theta, params) * r);
 }
 

@@ -67,7 +67,7 @@ void ScanFollower::begin(Time stamp, const std::vector<SurfacePoint>& points) {
   reference_.reset();
   last_ = stamp;
   reference_from_last_ = {};
-  if (points.size() >= kFewestPoints) reference_.emplace(Reference{stamp, SurfaceIndex{points}});
+  if (points.size() >= kFewestPoints) reference_.emplace(Reference{stamp, points});
 }
 
 std::optional<MotionPair> ScanFollower::pair_of_last(const motion_models::OdometryHistory& odometry, double way,
@@ -101,9 +101,11 @@ std::optional<MotionPair> ScanFollower::look(const motion_models::OdometryHistor
   if (!is_worth_it(moved)) return std::nullopt;
   const auto points = points_of(sweep);
   std::optional<LineMatch> match;
-  if (points.size() >= kFewestPoints)
+  if (points.size() >= kFewestPoints) {
+    if (!reference_->surfaces) reference_->surfaces.emplace(reference_->points);
     match =
-        line_match(reference_->surfaces, points, reference_from_last_ * inverse(mount) * moved * mount, params_.lines);
+        line_match(*reference_->surfaces, points, reference_from_last_ * inverse(mount) * moved * mount, params_.lines);
+  }
   if (!match || match->overlap < params_.least_overlap || match->residual > params_.most_residual)
     return end_early(points);
   reference_from_last_ = match->reference_from_sweep;

@@ -35,7 +35,8 @@ class ScanFollower {
   };
   struct Reference {
     Time stamp{};
-    SurfaceIndex surfaces;
+    std::vector<SurfacePoint> points;
+    std::optional<SurfaceIndex> surfaces{};  ///< of these, once a sweep is to be laid onto them
   };
   [[nodiscard]] std::vector<SurfacePoint> points_of(Waiting& sweep) const;
   [[nodiscard]] bool is_worth_it(const Pose2& moved) const;

@@ -6,6 +6,7 @@
 
 #include "docent/collision_avoidance/body/outline_distance.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
+#include "docent/geometry/point_transform.h"
 #include "docent/mapping/occupancy/live_map.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
@@ -94,12 +95,13 @@ class MapModule final : public Module {
     if (!map_from_base) return false;
     sight.map_from_laser = *map_from_base * base_from_laser_[laser];
     sight.endpoints.clear();
+    const PointTransform map_from_laser{sight.map_from_laser};
     for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
       const float range = scan.ranges[k];
       if (!std::isfinite(range) || range < scan.range_min) continue;
       const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
                                            static_cast<double>(k) * static_cast<double>(scan.angle_increment));
-      sight.endpoints.push_back(sight.map_from_laser * (static_cast<double>(range) * unit(bearing)));
+      sight.endpoints.push_back(map_from_laser * (static_cast<double>(range) * unit(bearing)));
     }
     return sight.is_placed = true;
   }
