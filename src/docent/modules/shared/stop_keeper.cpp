@@ -12,8 +12,8 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds{100};
 /// All keepers speak on one topic, and answer one another within a millisecond: a reader that keeps the newest word
-/// alone, as that of any other state does, would lose what one said when the next one speaks, and the stop would wait for
-/// the next repetition.
+/// alone, as that of any other state does, would lose what one said when the next one speaks, and the stop would wait
+/// for the next repetition.
 constexpr Topic<docent_msgs::Stop> kWords{topics::kStop.name, topics::kStop.qos, 32};
 
 StopRegister::Word word_of(const docent_msgs::Stop& stop) {
