@@ -111,6 +111,7 @@ struct Museum {
   std::vector<std::string> languages;                    ///< codes, its own first
   std::filesystem::path map_path;                        ///< of the map's YAML
   OccupancyGrid map;                                     ///< walls
+  std::vector<std::string> map_notes;                    ///< what is odd about the map's file
   Polygon area;                                          ///< [m], map: where the robot may be
   std::vector<Hazard> hazards;                           ///< what sensors do not see
   Pose2 home;                                            ///< map_from_base where it waits

@@ -86,6 +86,14 @@ YAML::Node YamlReader::node(const char* key) {
   return parent[key];
 }
 
+std::vector<std::string> YamlReader::unknown() const {
+  if (!missing_.empty()) throw YamlFault{file_.fault(node_, "missing key '" + missing_.front() + "'")};
+  std::vector<std::string> keys;
+  for (const auto& entry : node_)
+    if (!known_.contains(entry.first.Scalar())) keys.push_back(entry.first.Scalar());
+  return keys;
+}
+
 void YamlReader::finish() const {
   for (const auto& entry : node_) {
     const auto& key = entry.first.Scalar();

@@ -62,6 +62,8 @@ class YamlReader {
   }
   /// The node under `key`, undefined when absent, for what is not read into a struct.
   [[nodiscard]] YAML::Node node(const char* key);
+  /// Keys that nobody asked for. Refuses the absence of required ones.
+  [[nodiscard]] std::vector<std::string> unknown() const;
   /// Refuses keys that nobody asked for, then the absence of required ones: a misspelt key is both.
   void finish() const;
 
@@ -112,6 +114,18 @@ template <class T>
     value.visit(reader);
     reader.finish();
     return {};
+  } catch (const YamlFault& fault) {
+    return tl::unexpected<Error>(fault.error);
+  }
+}
+
+/// The same of a file that other programs write, who may add keys of their own: which those are.
+template <class T>
+[[nodiscard]] Result<std::vector<std::string>> read_yaml_leniently(const YamlFile& file, const YAML::Node& node, T& value) {
+  try {
+    YamlReader reader{file, node};
+    value.visit(reader);
+    return reader.unknown();
   } catch (const YamlFault& fault) {
     return tl::unexpected<Error>(fault.error);
   }

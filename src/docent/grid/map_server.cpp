@@ -1,13 +1,13 @@
-#include <png.h>
-
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <csetjmp>
-#include <cstring>
+#include <numbers>
 
 #include "docent/base/files.h"
 #include "docent/base/yaml.h"
+#include "docent/grid/map_image.h"
 #include "docent/grid/occupancy_grid.h"
+#include "docent/grid/turned.h"
 
 // Maps as ROS's map_server (ROS 1 and Nav2) reads and writes them: a YAML file that names an image; the image's first
 // row is the map's top. In one thing more is known than it makes of them: every map_saver writes 205 of 255 for
@@ -17,22 +17,16 @@
 namespace docent {
 namespace {
 
-constexpr long kMostPixels = 400L * 1000L * 1000L;
-constexpr std::uint16_t kSaversUnknown = 205;  ///< of a white of 255
-
-struct GreyImage {
-  long width = 0;
-  long height = 0;
-  double white = 255.0;
-  std::vector<std::uint16_t> pixels;
-  std::vector<bool> is_clear;  ///< not opaque; empty: everything is
-};
+constexpr double kSaversUnknown = 205.0 / 255.0;  ///< of white
+constexpr std::size_t kLarge = 25'000'000;        ///< [cells]: of a larger map only what is known is kept
+constexpr std::size_t kMost = 400'000'000;        ///< [cells]
+constexpr int kRim = 20;                          ///< [cells] of what is unknown round what is kept
 
 struct MapYaml {
   std::string image;
   double resolution = 0.0;
-  std::vector<double> origin;
-  int negate = 0;
+  std::vector<std::string> origin;
+  std::string negate = "0";
   double occupied_thresh = 0.65;
   double free_thresh = 0.196;
   std::string mode = "trinary";
@@ -48,177 +42,214 @@ struct MapYaml {
   }
 };
 
-/// Reads the header of a PGM token by token, knowing the line for faults.
-class PgmReader {
- public:
-  PgmReader(const std::string& bytes, const std::string& name) : bytes_{bytes}, name_{name} {}
-
-  Result<GreyImage> read() {
-    if (bytes_.size() < 2) return fault("not a PGM image: it ends too early");
-    const bool is_text = bytes_[1] == '2';
-    at_ = 2;
-    GreyImage image;
-    long white = 0;
-    for (long* number : {&image.width, &image.height, &white}) {
-      if (!read_number(*number)) return fault("not a PGM image: expected a number in the header");
-    }
-    if (image.width <= 0 || image.height <= 0 || image.width > kMostPixels / image.height) {
-      return fault("PGM of " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels");
-    }
-    if (white <= 0 || white > 65535) return fault("PGM with a white of " + std::to_string(white));
-    image.white = static_cast<double>(white);
-    const auto count = static_cast<std::size_t>(image.width * image.height);
-    if (is_text) {
-      if (bytes_.size() - at_ < count) return fault("PGM ends early");
-      image.pixels.resize(count);
-      for (auto& pixel : image.pixels) {
-        long number = 0;
-        if (!read_number(number) || number > white) return fault("PGM ends early or holds a value above its white");
-        pixel = static_cast<std::uint16_t>(number);
-      }
-      return image;
-    }
-    ++at_;  // the one white space behind the header
-    const std::size_t width = white > 255 ? 2 : 1;
-    if (at_ > bytes_.size() || bytes_.size() - at_ < count * width) {
-      return fault("PGM ends early: " + std::to_string(count * width) + " bytes of pixels expected, " +
-                   std::to_string(bytes_.size() - std::min(at_, bytes_.size())) + " found");
-    }
-    image.pixels.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(bytes_[at_ + k]); };
-      image.pixels[i] = width == 1 ? byte(i) : static_cast<std::uint16_t>(byte(2 * i) << 8U | byte(2 * i + 1));
-    }
-    return image;
-  }
-
- private:
-  [[nodiscard]] tl::unexpected<Error> fault(const std::string& what) const {
-    const auto line =
-        1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<long>(std::min(at_, bytes_.size())), '\n');
-    return fail(name_ + ":" + std::to_string(line) + ": " + what);
-  }
-  bool read_number(long& number) {
-    while (at_ < bytes_.size()) {
-      if (bytes_[at_] == '#') {
-        while (at_ < bytes_.size() && bytes_[at_] != '\n') ++at_;
-      } else if (std::isspace(static_cast<unsigned char>(bytes_[at_])) != 0) {
-        ++at_;
-      } else {
-        break;
-      }
-    }
-    const std::size_t start = at_;
-    number = 0;
-    while (at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9' && number < 100000000L) {
-      number = number * 10 + (bytes_[at_++] - '0');
-    }
-    return at_ > start;
-  }
-  const std::string& bytes_;
-  const std::string& name_;
-  std::size_t at_ = 0;
-};
-
-Result<GreyImage> read_png(const std::string& bytes, const std::string& name) {
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) {
-    return fail(name + ":1: not a PNG image: " + png.message);
-  }
-  if (static_cast<long>(png.width) > kMostPixels / std::max(1L, static_cast<long>(png.height))) {
-    png_image_free(&png);
-    return fail(name + ":1: PNG too large");
-  }
-  const bool has_alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
-  png.format = PNG_FORMAT_GA;
-  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
-  if (png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr) == 0) {
-    return fail(name + ":1: damaged PNG image: " + png.message);
-  }
-  GreyImage image;
-  image.width = png.width;
-  image.height = png.height;
-  const std::size_t count = pixels.size() / 2;
-  image.pixels.resize(count);
-  if (has_alpha) image.is_clear.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    image.pixels[i] = pixels[2 * i];
-    if (has_alpha) image.is_clear[i] = pixels[2 * i + 1] != 255;
-  }
-  return image;
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
-/// What a pixel says by the file's mode. What is not opaque is unknown in every mode, as in map_server's `scale`.
-std::int8_t cell_of(const MapYaml& yaml, const GreyImage& image, std::size_t pixel) {
-  const std::uint16_t value = image.pixels[pixel];
-  const double shade = static_cast<double>(value) / image.white;
-  const double occupied = yaml.negate == 1 ? shade : 1.0 - shade;
-  if (!image.is_clear.empty() && image.is_clear[pixel]) return OccupancyGrid::kUnknown;
-  if (yaml.mode == "raw") {
-    const long percent = std::lround(shade * 255.0);
-    return percent <= OccupancyGrid::kOccupied ? static_cast<std::int8_t>(percent) : OccupancyGrid::kUnknown;
+/// What is said by the file, in the terms of this program.
+struct Meaning {
+  double resolution = 0.0;  ///< [m]
+  Pose2 origin;             ///< of the image's lower left corner, [m, rad]
+  bool is_negated = false;
+  double occupied_thresh = 0.0, free_thresh = 0.0;
+  std::string mode;
+};
+
+/// [rad] of the origin; what some savers write for a heading that they never had ("-nan") is none.
+Result<double> yaw_of(const std::string& text, std::vector<std::string>& notes) {
+  const std::string plain = lower_case(text);
+  if (plain.ends_with("nan")) {
+    notes.emplace_back("the origin's yaw is not a number, which some programs write for 0");
+    return 0.0;
   }
-  const bool is_savers_unknown = value == kSaversUnknown && image.white == 255.0 && yaml.negate == 0;
-  if (yaml.mode == "trinary" && is_savers_unknown) return OccupancyGrid::kUnknown;
-  if (occupied > yaml.occupied_thresh) return OccupancyGrid::kOccupied;
-  if (occupied < yaml.free_thresh) return OccupancyGrid::kFree;
-  if (yaml.mode == "trinary") return OccupancyGrid::kUnknown;
-  const double share = (occupied - yaml.free_thresh) / (yaml.occupied_thresh - yaml.free_thresh);
-  return static_cast<std::int8_t>(std::lround(100.0 * share));
+  char* end = nullptr;
+  const double yaw = std::strtod(plain.c_str(), &end);
+  if (plain.empty() || *end != '\0' || !std::isfinite(yaw)) return fail("origin must be [x, y, yaw], found '" + text + "'");
+  return std::remainder(yaw, 2.0 * std::numbers::pi);
+}
+
+Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vector<std::string>& notes) {
+  const auto fault = [&](const char* key, const std::string& what) {
+    return tl::unexpected<Error>(file.fault(file.root()[key], what));
+  };
+  constexpr double kFinest = 1e-4;   // [m]
+  constexpr double kFarthest = 1e7;  // [m] as far as one coordinate goes on Earth
+  Meaning meaning{.resolution = yaml.resolution,
+                  .occupied_thresh = yaml.occupied_thresh,
+                  .free_thresh = yaml.free_thresh,
+                  .mode = lower_case(yaml.mode)};
+  if (!(yaml.resolution >= kFinest && yaml.resolution < 10.0))
+    return fault("resolution", "resolution must be in (0, 10) m");
+  if (yaml.origin.size() != 3) return fault("origin", "origin must be [x, y, yaw]");
+  for (const auto& [text, field] : {std::pair{yaml.origin[0], &meaning.origin.x}, {yaml.origin[1], &meaning.origin.y}}) {
+    char* end = nullptr;
+    *field = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') return fault("origin", "origin must be [x, y, yaw], found '" + text + "'");
+    if (!(std::abs(*field) <= kFarthest)) return fault("origin", "origin lies nowhere on Earth");
+  }
+  const auto yaw = yaw_of(yaml.origin[2], notes);
+  if (!yaw) return fault("origin", yaw.error().message);
+  meaning.origin.theta = *yaw;
+  const std::string negate = lower_case(yaml.negate);
+  if (negate != "0" && negate != "1" && negate != "false" && negate != "true")
+    return fault("negate", "negate must be 0 or 1");
+  meaning.is_negated = negate == "1" || negate == "true";
+  if (!(0.0 <= yaml.free_thresh && yaml.free_thresh < yaml.occupied_thresh && yaml.occupied_thresh <= 1.0)) {
+    return fault("occupied_thresh", "thresholds must hold 0 <= free_thresh < occupied_thresh <= 1");
+  }
+  if (meaning.mode != "trinary" && meaning.mode != "scale" && meaning.mode != "raw")
+    return fault("mode", "mode must be trinary, scale or raw");
+  return meaning;
+}
+
+/// What each shade from 0 to `white` says by the file's mode.
+std::vector<std::int8_t> cells_of_shades(const Meaning& meaning, std::uint32_t white) {
+  std::vector<std::int8_t> cells(white + std::size_t{1});
+  const double step = std::max(0.5 / 255.0, 0.5 / white);
+  for (std::uint32_t value = 0; value <= white; ++value) {
+    const double shade = static_cast<double>(value) / white;
+    const double occupied = meaning.is_negated ? shade : 1.0 - shade;
+    const bool is_trinary = meaning.mode == "trinary";
+    std::int8_t cell = OccupancyGrid::kUnknown;
+    if (meaning.mode == "raw") {
+      const long percent = std::lround(shade * 255.0);
+      if (percent <= OccupancyGrid::kOccupied) cell = static_cast<std::int8_t>(percent);
+    } else if (is_trinary && !meaning.is_negated && std::abs(shade - kSaversUnknown) <= step) {
+      cell = OccupancyGrid::kUnknown;
+    } else if (occupied > meaning.occupied_thresh) {
+      cell = OccupancyGrid::kOccupied;
+    } else if (occupied < meaning.free_thresh) {
+      cell = OccupancyGrid::kFree;
+    } else if (!is_trinary) {
+      const double share = (occupied - meaning.free_thresh) / (meaning.occupied_thresh - meaning.free_thresh);
+      cell = static_cast<std::int8_t>(std::lround(100.0 * share));
+    }
+    cells[value] = cell;
+  }
+  return cells;
+}
+
+/// A row without what is unknown at its ends.
+struct KnownPart {
+  long from = 0;
+  std::vector<std::int8_t> cells;
+};
+
+/// The rows of the image, from the top. What is not at least half opaque is unknown in every mode.
+Result<std::vector<KnownPart>> read_rows(MapImage& image, const Meaning& meaning) {
+  const std::vector<std::int8_t> cell_of = cells_of_shades(meaning, image.white());
+  std::vector<KnownPart> rows(static_cast<std::size_t>(image.height()));
+  std::vector<std::uint32_t> shades;
+  std::vector<std::int8_t> cells(static_cast<std::size_t>(image.width()));
+  const auto is_known = [](std::int8_t cell) { return cell != OccupancyGrid::kUnknown; };
+  std::size_t known = 0;
+  for (KnownPart& row : rows) {
+    if (auto read = image.read_row(shades); !read) return tl::unexpected<Error>(read.error());
+    std::transform(shades.begin(), shades.end(), cells.begin(),
+                   [&](std::uint32_t shade) { return shade == MapImage::kClear ? OccupancyGrid::kUnknown : cell_of[shade]; });
+    const auto first = std::find_if(cells.begin(), cells.end(), is_known);
+    const auto last = std::find_if(cells.rbegin(), std::make_reverse_iterator(first), is_known).base();
+    row.from = first - cells.begin();
+    row.cells.assign(first, last);
+    known += row.cells.size();
+    if (known > kMost) return fail("more than " + std::to_string(kMost) + " cells are known");
+  }
+  return rows;
+}
+
+/// The grid of all rows, or, of a large image most of whose rim is unknown, of the part that is known.
+Result<OccupancyGrid> grid_of(const MapImage& image, const std::vector<KnownPart>& rows, const Meaning& meaning,
+                              std::vector<std::string>& notes) {
+  long left = 0, right = image.width(), top = 0, bottom = image.height();
+  const auto cells_of = [&] { return static_cast<std::size_t>(right - left) * static_cast<std::size_t>(bottom - top); };
+  const std::size_t all = cells_of();
+  if (all > kLarge) {
+    left = image.width(), right = 0, top = image.height(), bottom = 0;
+    for (long row = 0; row < image.height(); ++row) {
+      const KnownPart& part = rows[static_cast<std::size_t>(row)];
+      if (part.cells.empty()) continue;
+      left = std::min(left, part.from), right = std::max(right, part.from + static_cast<long>(part.cells.size()));
+      top = std::min(top, row), bottom = row + 1;
+    }
+    if (right <= left) return fail("nothing in it is known");
+    left = std::max(0L, left - kRim), right = std::min(image.width(), right + kRim);
+    top = std::max(0L, top - kRim), bottom = std::min(image.height(), bottom + kRim);
+    if (cells_of() > kMost)
+      return fail(std::to_string(right - left) + " x " + std::to_string(bottom - top) + " pixels of it are known: more than " +
+                  std::to_string(kMost));
+    if (2 * cells_of() > all && all <= kMost) left = top = 0, right = image.width(), bottom = image.height();
+    if (cells_of() < all)
+      notes.push_back("of " + std::to_string(image.width()) + " x " + std::to_string(image.height()) + " pixels the " +
+                      std::to_string(right - left) + " x " + std::to_string(bottom - top) + " round what is known are used");
+  }
+  OccupancyGrid map;
+  map.frame = {static_cast<int>(right - left),
+               static_cast<int>(bottom - top),
+               meaning.resolution,
+               {static_cast<double>(left) * meaning.resolution, static_cast<double>(image.height() - bottom) * meaning.resolution}};
+  map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
+  for (long row = top; row < bottom; ++row) {
+    const KnownPart& part = rows[static_cast<std::size_t>(row)];
+    if (part.cells.empty()) continue;
+    const CellIndex to{static_cast<int>(part.from - left), static_cast<int>(bottom - 1 - row)};
+    std::copy(part.cells.begin(), part.cells.end(), map.cells.begin() + static_cast<std::ptrdiff_t>(map.frame.index(to)));
+  }
+  return map;
+}
+
+/// Lays the map, whose frame begins at the image's corner, to where the file says.
+void place(OccupancyGrid& map, const MapImage& image, const Pose2& origin, std::vector<std::string>& notes) {
+  const double reach = map.frame.resolution * std::hypot(static_cast<double>(image.width()), static_cast<double>(image.height()));
+  const bool is_turned = std::abs(origin.theta) * reach > 0.5 * map.frame.resolution;  // else no cell is another one
+  if (is_turned) {
+    map = turned(map, origin.theta);
+    notes.push_back("turned by " + std::to_string(std::lround(origin.theta * 1800.0 / std::numbers::pi) / 10.0).substr(0, 6) +
+                    " degrees, as the origin's yaw says");
+  }
+  map.frame.origin = map.frame.origin + Point2{origin.x, origin.y};
 }
 
 }  // namespace
 
-Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
-  if (const auto extension = yaml_path.extension(); extension == ".pgm" || extension == ".png") {
+Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) {
+  if (const auto extension = lower_case(yaml_path.extension().string()); extension == ".pgm" || extension == ".png") {
     const auto beside = std::filesystem::path{yaml_path}.replace_extension(".yaml");
     return fail(yaml_path.string() + ": this is the image of a map; name the YAML file that says its scale" +
                 (std::filesystem::exists(beside) ? ", " + beside.string() : ""));
   }
   const auto file = YamlFile::load(yaml_path);
   if (!file) return tl::unexpected<Error>(file.error());
+  LoadedMap loaded;
   MapYaml yaml;
-  if (auto read = read_yaml(*file, file->root(), yaml); !read) return tl::unexpected<Error>(read.error());
-  const auto fault = [&](const char* key, const std::string& what) {
-    return tl::unexpected<Error>(file->fault(file->root()[key], what));
-  };
-  constexpr double kFinest = 1e-4;   // [m]
-  constexpr double kFarthest = 1e7;  // [m] as far as one coordinate goes on Earth
-  if (!(yaml.resolution >= kFinest && yaml.resolution < 10.0))
-    return fault("resolution", "resolution must be in (0, 10) m");
-  if (yaml.origin.size() != 3) return fault("origin", "origin must be [x, y, yaw]");
-  if (!(std::abs(yaml.origin[0]) <= kFarthest && std::abs(yaml.origin[1]) <= kFarthest))
-    return fault("origin", "origin lies nowhere on Earth");
-  if (yaml.origin[2] != 0.0) return fault("origin", "a turned origin (yaw not 0) is not supported");
-  if (yaml.negate != 0 && yaml.negate != 1) return fault("negate", "negate must be 0 or 1");
-  if (!(0.0 <= yaml.free_thresh && yaml.free_thresh < yaml.occupied_thresh && yaml.occupied_thresh <= 1.0)) {
-    return fault("occupied_thresh", "thresholds must hold 0 <= free_thresh < occupied_thresh <= 1");
-  }
-  if (yaml.mode != "trinary" && yaml.mode != "scale" && yaml.mode != "raw")
-    return fault("mode", "mode must be trinary, scale or raw");
-
+  const auto unknown = read_yaml_leniently(*file, file->root(), yaml);
+  if (!unknown) return tl::unexpected<Error>(unknown.error());
+  for (const std::string& key : *unknown) loaded.notes.push_back("key '" + key + "' is not known here, and left out");
+  const auto meaning = meaning_of(*file, yaml, loaded.notes);
+  if (!meaning) return tl::unexpected<Error>(meaning.error());
   const auto image_path = yaml_path.parent_path() / yaml.image;
-  const auto bytes = read_file(image_path);
-  if (!bytes) return fault("image", "image " + bytes.error().message);
-  const bool is_pgm = bytes->size() > 2 && (*bytes)[0] == 'P' && ((*bytes)[1] == '5' || (*bytes)[1] == '2');
-  const auto image = is_pgm ? PgmReader{*bytes, image_path.string()}.read() : read_png(*bytes, image_path.string());
+  const auto image = open_map_image(image_path);
+  if (!image && !std::filesystem::is_regular_file(image_path))
+    return tl::unexpected<Error>(file->fault(file->root()["image"], "image " + image.error().message));
   if (!image) return tl::unexpected<Error>(image.error());
+  if (!(*image)->note().empty()) loaded.notes.push_back((*image)->note());
+  const auto in_image = [&](const Error& error) {
+    const bool is_named = error.message.starts_with(image_path.string());
+    return tl::unexpected<Error>(is_named ? error : Error{image_path.string() + ":1: " + error.message});
+  };
+  const auto rows = read_rows(**image, *meaning);
+  if (!rows) return in_image(rows.error());
+  auto map = grid_of(**image, *rows, *meaning, loaded.notes);
+  if (!map) return in_image(map.error());
+  loaded.map = std::move(*map);
+  place(loaded.map, **image, meaning->origin, loaded.notes);
+  return loaded;
+}
 
-  OccupancyGrid map;
-  map.frame = {static_cast<int>(image->width),
-               static_cast<int>(image->height),
-               yaml.resolution,
-               {yaml.origin[0], yaml.origin[1]}};
-  map.cells.resize(map.frame.size());
-  for (int row = 0; row < map.frame.rows; ++row) {
-    for (int column = 0; column < map.frame.columns; ++column) {
-      const std::size_t from = map.frame.index({column, map.frame.rows - 1 - row});
-      map.cells[map.frame.index({column, row})] = cell_of(yaml, *image, from);
-    }
-  }
-  return map;
+Result<OccupancyGrid> load_map(const std::filesystem::path& yaml_path) {
+  auto loaded = read_map(yaml_path);
+  if (!loaded) return tl::unexpected<Error>(loaded.error());
+  return std::move(loaded->map);
 }
 
 Result<void> save_map(const OccupancyGrid& map, const std::filesystem::path& path_without_extension) {

@@ -119,9 +119,10 @@ Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(museum.map_path, code))
     return tl::unexpected<Error>(file->fault(file->root()["map"], museum.map_path.string() + " does not exist"));
-  auto map = load_map(museum.map_path);
+  auto map = read_map(museum.map_path);
   if (!map) return tl::unexpected<Error>(map.error());
-  museum.map = std::move(*map);
+  museum.map = std::move(map->map);
+  museum.map_notes = std::move(map->notes);
   return museum;
 }
 

@@ -313,9 +313,8 @@ ReferencedLog load_log(const Options& options) {
 
 void localize(const Options& options) {
   prepare_cache(options.cache);
-  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const OccupancyGrid map = load_and_say(options.map);
   const ReferencedLog referenced = load_log(options);
-  say_classes(options.map, map);
   const recording::LaserLog& log = referenced.log;
   const bool has_reference = !options.choice.reference.empty();
   const double moving = say_moving(log);

@@ -102,7 +102,7 @@ void check(const Deployment& deployment, bool lists_recordings) {
                   folder.string().c_str(), museum.exhibits.size(), museum::sensible_pairs(museum),
                   museum.hazards.size(), museum.tours.size(), frame.columns * frame.resolution,
                   frame.rows * frame.resolution);
-      say_classes(museum.map_path.string(), museum.map);
+      say_classes(museum.map_path.string(), museum.map, museum.map_notes);
       return;
     }
   }

@@ -12,6 +12,7 @@
 #include "docent/museum/museum.h"
 #include "docent/pictures/map_picture.h"
 #include "docent/simulator/pedestrians/recording.h"
+#include "docent/simulator/traced/given_map.h"
 #include "docent/simulator/traced/traced_museum.h"
 #include "docent/simulator/world/world_picture.h"
 
@@ -77,7 +78,7 @@ pictures::Figure draw(const simulator::World& world, const simulator::Survey& su
 
 void run(const MuseumOptions& options) {
   const fs::path out{options.out};
-  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const OccupancyGrid map = load_and_say(options.map);
   const std::string title = options.title.empty() ? fs::path{options.map}.stem().string() : options.title;
   std::vector<simulator::Recording> recordings;
   for (const std::string& name : options.pedestrians) {
@@ -87,11 +88,11 @@ void run(const MuseumOptions& options) {
   if (!options.places.empty()) places = value_or_fail(simulator::load_places(options.places));
   const auto traced = simulator::trace_museum(map, recordings, title, options.seed, places);
   if (!traced) throw CommandFailed{options.map + ": " + traced.error().message};
-  say_classes(options.map, map);
   const simulator::MuseumPlan& plan = traced->plan;
   for (const auto& fit : traced->fits) print_fit(fit);
   if (traced->carried_away > 0) std::printf("%zu small things carried out of their way\n", traced->carried_away);
-  const simulator::Survey survey = simulator::survey(plan.world, {}, Rng{options.seed}.stream("survey"));
+  simulator::Survey survey = simulator::survey(plan.world, {}, Rng{options.seed}.stream("survey"));
+  survey.map = simulator::with_given_map(map, traced->frame, traced->building, survey.map);
   value_or_fail(simulator::write_museum(plan, survey, out));
   std::printf(
       "%s: %zu exhibits, %zu solids, %zu hazards, %zu pieces drawn where they no longer stand, %zu not on the map\n",

@@ -109,6 +109,8 @@ class Curator {
     furnish();
     world.operating_area = trace_area(traced_, stairs_, kRim, 0.5 * kRim);
     if (!find_places()) return fail("the map has no room for a home and two exhibits that a robot reaches");
+    museum_.frame = traced_.frame;
+    museum_.building = std::move(traced_.building);
     return std::move(museum_);
   }
 

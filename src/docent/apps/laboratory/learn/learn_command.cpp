@@ -12,6 +12,7 @@
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/log_defaults.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
 #include "docent/museum/museum.h"
 #include "docent/recording/laser_log.h"
@@ -39,7 +40,7 @@ struct Options {
 
 OccupancyGrid load(const Options& options) {
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is required", 2};
-  if (!options.map.empty()) return value_or_fail(load_map(options.map));
+  if (!options.map.empty()) return load_and_say(options.map);
   return value_or_fail(museum::load_museum(options.museum)).map;
 }
 

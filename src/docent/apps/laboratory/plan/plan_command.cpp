@@ -12,6 +12,7 @@
 #include "docent/apps/laboratory/plan/plan_picture.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/museum/museum.h"
@@ -92,7 +93,7 @@ void plan(Options& options) {
   value_or_fail(options.coastal.validate());
   std::optional<museum::Museum> museum;
   if (!options.museum.empty()) museum = value_or_fail(museum::load_museum(options.museum));
-  const OccupancyGrid map = museum ? museum->map : value_or_fail(load_map(options.map));
+  const OccupancyGrid map = museum ? museum->map : load_and_say(options.map);
   planning::RoutePlanner planner = planner_of(map, museum, options);
   if (planner.is_closed(from)) throw CommandFailed{"--from " + options.from + ": no room for the robot there"};
   for (std::size_t i = 0; i < goals.size(); ++i)

@@ -8,6 +8,7 @@
 #include "docent/apps/laboratory/rooms/rooms_picture.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
 #include "docent/mapping/rooms/room_graph.h"
 #include "docent/mapping/topological/topological_map.h"
@@ -78,7 +79,7 @@ void list_rooms(const museum::Museum& museum, const mapping::RegionParams& param
 void run(const RoomsOptions& options) {
   value_or_fail(options.params.validate());
   if (!options.museum.empty()) return list_rooms(value_or_fail(museum::load_museum(options.museum)), options.params);
-  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const OccupancyGrid map = load_and_say(options.map);
   const mapping::TopologicalMap rooms = mapping::topological_map(map, options.params);
   for (std::size_t i = 0; i < rooms.places.size(); ++i) {
     const mapping::Place& place = rooms.places[i];

@@ -8,6 +8,7 @@
 #include "docent/apps/laboratory/score_map/map_score.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
 
 namespace docent::apps::score_map_command {
@@ -20,7 +21,7 @@ struct ScoreOptions {
 };
 
 void run(const ScoreOptions& options) {
-  const OccupancyGrid map = value_or_fail(load_map(options.map));
+  const OccupancyGrid map = load_and_say(options.map);
   const simulator::World world = value_or_fail(simulator::load_world(options.world));
   const MapScore score = value_or_fail(score_map(map, world));
   const double ghost_share = static_cast<double>(score.ghosts) / static_cast<double>(score.free);
