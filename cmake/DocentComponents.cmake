@@ -30,7 +30,7 @@ docent_component(people FOLDERS people DEPENDS models core)
 docent_component(tours FOLDERS task_control/travel_times task_control/tour_scheduler task_control/golog DEPENDS planning core)
 docent_component(bus FOLDERS messages transport DEPENDS core
   PACKAGES "find_package(CycloneDDS QUIET)" LIBRARIES CycloneDDS::ddsc)
-docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES sqlite3 zstd z)
+docent_component(recording FOLDERS recording DEPENDS bus core LIBRARIES bz2 lz4 sqlite3 zstd z)
 
 # Not of the component that holds the folder around: what brings several of them together, and what only the programs need.
 set(DOCENT_PROGRAM_FOLDERS messages/definitions planning/navigator planning/mark_alignment planning/survey)

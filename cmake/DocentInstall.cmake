@@ -134,7 +134,7 @@ and examples.")
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_SECTION libdevel)
 # What docentConfig.cmake finds, and what the headers include.
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_DEPENDS "cyclonedds-dev, libceres-dev, libeigen3-dev, libexpected-dev, libpng-dev, \
-libsqlite3-dev, libyaml-cpp-dev, libzstd-dev, swi-prolog-core, zlib1g-dev")
+libsqlite3-dev, libbz2-dev, liblz4-dev, libyaml-cpp-dev, libzstd-dev, swi-prolog-core, zlib1g-dev")
 set(CPACK_DEBIAN_LIBDOCENT-DEV_PACKAGE_RECOMMENDS "cmake, g++")
 
 if(DOCENT_PYTHON)

@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_mcap = data[1] % 2 == 0;
   const auto path = room.path / (is_mcap ? "drive.mcap" : "drive.db3");
   (is_mcap ? docent::write_mcap : docent::write_rosbag2)(path, messages);
-  const auto log = docent::recording::read_laser_log(path, true);
+  const auto log = docent::recording::read_laser_log(path, {.with_sonars = true});
   if (!log) {
     if (log.error().message.rfind(path.string() + ": ", 0) != 0) std::abort();
     return 0;

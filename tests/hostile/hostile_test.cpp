@@ -41,7 +41,7 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
     SCOPED_TRACE(seed);
     const auto path = folder_ / (seed % 2 == 0 ? "drive.mcap" : "drive.db3");
     (seed % 2 == 0 ? write_mcap : write_rosbag2)(path, hostile_drive(seed));
-    const auto log = recording::read_laser_log(path, true);
+    const auto log = recording::read_laser_log(path, {.with_sonars = true});
     if (!log) {
       ++refused;
       EXPECT_EQ(log.error().message.rfind(path.string() + ": holds no laser scan that is fit", 0), 0U)

@@ -8,6 +8,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/recording/rosbag/topic_choice.h"
 
 namespace docent::recording {
 
@@ -58,22 +59,27 @@ struct LaserLog {
   std::map<std::string, std::string> parameters;
   double max_range = 0.0;           ///< [m] of the laser that looks farthest: from here on a reading means "no return"
   bool times_are_invented = false;  ///< the file's times were useless: even steps of 0.2 s instead
+  std::string sources;              ///< which topics of a ROS recording it was made of, in words
   /// Everything that had to be assumed or left out, in words: for a person who wonders about a result.
   std::vector<std::string> notes;
 };
 
+/// How a recording is read.
+struct LaserLogOptions {
+  bool with_sonars = false;  ///< also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none
+  WantedTopics topics;       ///< of a ROS recording
+};
+
 /// Reads what `--log` names, by its content: a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or
-/// its database (.db3).
+/// its database (.db3), packed or not, or a bag of ROS 1.
 ///
-/// Of a ROS 2 recording it takes every sensor_msgs/LaserScan (not those under /docent/), the nav_msgs/Odometry topic
-/// with most messages (where there is none the transform odom -> base_link of /tf), interpolated at the scans' stamps,
-/// and the lasers' places from /tf_static. A laser that hangs upside down is turned over, clockwise ones are read as
-/// they are. What 0 means, what a laser sees of the robot and how far it looks is found out from the whole recording.
-/// Without odometry or places: as `notes` say.
-///
-/// With `with_sonars` also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none.
+/// Of a ROS recording it takes the sensor_msgs/LaserScan (not those under /docent/) and the nav_msgs/Odometry of one robot,
+/// or, where it has no such topic, the transform from odom of its /tf, interpolated at the scans' stamps (`choose_topics`); the
+/// lasers' places come from /tf_static, or from /tf where that says them again and again. A laser that hangs upside down is turned
+/// over, clockwise ones are read as they are. What 0 means, what a laser sees of the robot and how far it looks is found out
+/// from the whole recording. What was chosen, mended and left out: as `sources` and `notes` say.
 ///
 /// Error: "FILE: …" or "FILE:LINE: …": unreadable, damaged, or without a scan.
-[[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path, bool with_sonars = false);
+[[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path, const LaserLogOptions& options = {});
 
 }  // namespace docent::recording

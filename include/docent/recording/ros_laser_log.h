@@ -1,39 +1,43 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "docent/messages/message_fitness.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/recording/laser_log.h"
-#include "docent/recording/log_odometry.h"
 #include "docent/recording/recorded_ranges.h"
-#include "docent/recording/rosbag2_database.h"
+#include "docent/recording/rosbag/frame_tree.h"
+#include "docent/recording/rosbag/rosbag2_database.h"
+#include "docent/recording/rosbag/stamp_clock.h"
+#include "docent/recording/rosbag/topic_choice.h"
 
 namespace docent::recording {
 
-/// Makes a laser log of the messages of a ROS 2 recording (see read_laser_log).
+/// Makes a laser log of the messages of a ROS recording (see read_laser_log).
 class RosLaserLogBuilder {
  public:
-  explicit RosLaserLogBuilder(bool with_sonars = false) : with_sonars_{with_sonars} {}  ///< with_sonars: pings, too
+  explicit RosLaserLogBuilder(const LaserLogOptions& options = {}) : options_{options} {}  ///< nothing was added yet
 
-  /// Messages that do not matter are passed over; those that are not fit (message_fitness.h) are left out, and a note
-  /// says so. Error: a message that does not decode.
-  [[nodiscard]] Result<void> add(const Rosbag2Message& message);
-  /// Error: no scan was in it, or none that is fit. Call once.
+  /// Messages that do not matter are passed over; those that are damaged or not fit (message_fitness.h) are left out, and a
+  /// note says so.
+  void add(const Rosbag2Message& message);
+  /// Error: no scan was in it, or none that is fit, or what was wanted is not there. Call once.
   [[nodiscard]] Result<LaserLog> finish();
 
  private:
   struct Scan {
-    Time time;
-    std::string frame;
-    LoggedScan scan;
+    RecordedStamp stamp;
+    sensor_msgs::LaserScan message;
   };
-  struct Mount {
-    Pose2 base_from_laser;
-    bool is_upside_down = false;
+  struct Odometry {
+    RecordedStamp stamp;
+    LoggedOdometry reading;
+  };
+  struct OdometryTopic {
+    std::vector<Odometry> readings;
+    std::string parent, child;  ///< frames
   };
   struct Ping {
     std::string frame;
@@ -41,35 +45,39 @@ class RosLaserLogBuilder {
   };
   struct Refused {
     std::size_t count = 0;
-    MessageFault first;
+    std::string first;
   };
-  /// Whether the message is fit, and can be used so; counts those that are not.
-  template <class T>
-  [[nodiscard]] bool admits(const T& content, const std::string& topic);
-  void refuse(const std::string& topic, const MessageFault& fault);
+  void refuse(const std::string& topic, const std::string& why);
   [[nodiscard]] std::string refused_text() const;
-  void add_odometry(const geometry_msgs::TransformStamped& transform, Time log_time);
-  void add_scan(const sensor_msgs::LaserScan& message, Time log_time);
-  void add_ping(const sensor_msgs::Range& message, Time log_time);
-  void finish_pings();
-  /// nullopt: nobody says it, or it lies far off any robot.
-  [[nodiscard]] std::optional<Mount> mount_of(const std::string& frame) const;
-  [[nodiscard]] Pose2 odometry_at(Time time) const;
+  template <class T>
+  void add_as(const Rosbag2Message& message, void (RosLaserLogBuilder::*take)(const std::string& topic, T message, Time recorded));
+  void take_scan(const std::string& topic, sensor_msgs::LaserScan message, Time recorded);
+  void take_ping(const std::string& topic, sensor_msgs::Range message, Time recorded);
+  void take_odometry(const std::string& topic, nav_msgs::Odometry message, Time recorded);
+  void take_transforms(const std::string& topic, tf2_msgs::TFMessage message, Time recorded);
+
+  [[nodiscard]] Result<void> choose();
+  [[nodiscard]] const FrameTree& frames_of(const std::string& topic) const;
+  void use_odometry();
   /// What no base can have driven, as when a driver begins anew at zero.
   void take_out_jumps();
+  /// @param ahead  of the clock of odometry before that of the file
+  void use_scans(const std::string& topic, Duration ahead);
+  void finish_pings();
+  void note_clock(const std::string& name, std::size_t mended, std::size_t of);
 
-  bool with_sonars_;
-  std::map<std::string, RisingStamps> stamps_;  ///< by odometry topic and by frame of a scanner
-  std::vector<Scan> scans_;
+  LaserLogOptions options_;
+  std::map<std::string, std::vector<Scan>> scans_;       ///< by topic
+  std::map<std::string, OdometryTopic> odometry_;        ///< by topic
+  std::map<std::string, OdometryTopic> tf_odometry_;     ///< by name space
+  std::map<std::string, FrameTree> frames_;              ///< by name space
   std::vector<Ping> pings_;
-  std::map<std::string, std::vector<LoggedOdometry>> odometry_;               ///< by topic
-  std::map<std::string, std::string> base_frames_;                            ///< by odometry topic
-  std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;  ///< by child frame
-  std::string base_frame_;
-  std::vector<LoggedOdometry> tf_odometry_;  ///< of a recording without any odometry topic
-  std::string tf_base_frame_;
   std::map<std::string, Refused> refused_;  ///< by topic
   RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
+  ChosenTopics chosen_;
+  std::string base_frame_;
+  Duration odometry_ahead_{};             ///< of its clock before that of the file
+  std::vector<std::string> scan_frames_;  ///< [scans of the log]
   LaserLog log_;
 };
 

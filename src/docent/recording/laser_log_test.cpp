@@ -279,7 +279,7 @@ TEST_F(LaserLogFolder, SonarsWhereAskedFor) {
   ping(104.0, "sonar_lost", 2.0F, 0);
   write_mcap(folder_ / "sonar.mcap", messages);
   EXPECT_TRUE(read_laser_log(folder_ / "sonar.mcap")->pings.empty());
-  const auto log = read_laser_log(folder_ / "sonar.mcap", true);
+  const auto log = read_laser_log(folder_ / "sonar.mcap", {.with_sonars = true});
   ASSERT_TRUE(log) << log.error().message;
   ASSERT_EQ(log->pings.size(), 2U);
   EXPECT_FLOAT_EQ(log->pings[0].range, 1.5F);

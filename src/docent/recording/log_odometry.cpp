@@ -1,6 +1,8 @@
 #include "docent/recording/log_odometry.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 namespace docent::recording {
@@ -30,6 +32,21 @@ Time RisingStamps::follow(Time stamp) {
   newest_ = newest_ + kEnough * interval;  // as long as these took to come
   shift_ = newest_ - stamp;
   return newest_;
+}
+
+Pose2 odometry_at(const LaserLog& log, Time time) {
+  const auto& readings = log.odometry;
+  if (readings.empty()) return {};
+  const auto after = std::lower_bound(readings.begin(), readings.end(), time,
+                                      [](const LoggedOdometry& reading, Time wanted) { return reading.time < wanted; });
+  if (after == readings.begin()) return after->odom_from_base;
+  if (after == readings.end()) return readings.back().odom_from_base;
+  const LoggedOdometry& before = *std::prev(after);
+  const double share = to_seconds(time - before.time) / to_seconds(after->time - before.time);
+  const Pose2& a = before.odom_from_base;
+  const Pose2& b = after->odom_from_base;
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
 }
 
 LogOdometry::LogOdometry(bool times_are_true) : unbroken_{of_log(times_are_true)} {}

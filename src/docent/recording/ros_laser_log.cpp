@@ -3,29 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <numeric>
 
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
+#include "docent/recording/log_odometry.h"
 #include "docent/recording/log_scanners.h"
 
 namespace docent::recording {
 namespace {
 
-constexpr int kMostLinks = 32;           ///< of a chain of frames; a longer one is a ring
-constexpr double kFarthestMount = 20.0;  ///< [m] from the robot's centre; no robot is so large
-
-/// Turns `v` by the rotation `q`.
-geometry_msgs::Vector3 rotated(const geometry_msgs::Quaternion& q, const geometry_msgs::Vector3& v) {
-  const auto cross = [](const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
-    return geometry_msgs::Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  };
-  const geometry_msgs::Vector3 axis{q.x, q.y, q.z};
-  const auto once = cross(axis, v);
-  const auto twice = cross(axis, once);
-  return {v.x + 2.0 * (q.w * once.x + twice.x), v.y + 2.0 * (q.w * once.y + twice.y),
-          v.z + 2.0 * (q.w * once.z + twice.z)};
-}
+constexpr Duration kApart = std::chrono::seconds{1};  ///< clocks; less may be the time that a message takes
 
 /// The same scan with its beams in the order of rising bearings, and with a reach: drivers that know none say infinity.
 sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
@@ -38,119 +26,103 @@ sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
   return scan;
 }
 
-std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
+RecordedStamp stamp_of(const std_msgs::Header& header, Time recorded) {
+  const Time stamp = from_message(header.stamp);
+  return {stamp.nanoseconds == 0 ? recorded : stamp, recorded};
+}
 
-bool is_odometry(const geometry_msgs::TransformStamped& transform) {
-  const std::string child = without_slash(transform.child_frame_id);
-  return without_slash(transform.header.frame_id) == "odom" && (child == "base_link" || child == "base_footprint");
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 }  // namespace
 
-template <class T>
-bool RosLaserLogBuilder::admits(const T& content, const std::string& topic) {
-  const MessageFault fault = fault_of(content);
-  if (fault) refuse(topic, fault);
-  return !fault;
-}
-
-void RosLaserLogBuilder::refuse(const std::string& topic, const MessageFault& fault) {
+void RosLaserLogBuilder::refuse(const std::string& topic, const std::string& why) {
   Refused& refused = refused_[topic];
-  if (refused.count++ == 0) refused.first = fault;
+  if (refused.count++ == 0) refused.first = why;
 }
 
-Result<void> RosLaserLogBuilder::add(const Rosbag2Message& message) {
-  const auto damaged = [&] {
-    return fail("damaged " + message.type + " on " + message.topic + " at " + std::to_string(to_seconds(message.time)) +
-                " s");
-  };
-  if (std::abs(to_seconds(message.time)) > kLastSecond) {
-    refuse(message.topic, {"the time in the file", "lies beyond the year 2106"});
-    return {};
-  }
+template <class T>
+void RosLaserLogBuilder::add_as(const Rosbag2Message& message, void (RosLaserLogBuilder::*take)(const std::string&, T, Time)) {
+  auto content = decode_cdr<T>(message.data);
+  if (!content) return refuse(message.topic, "damaged");
+  (this->*take)(message.topic, std::move(*content), message.time);
+}
+
+void RosLaserLogBuilder::add(const Rosbag2Message& message) {
+  const bool is_wanted = message.type == sensor_msgs::LaserScan::kType || message.type == nav_msgs::Odometry::kType ||
+                         message.type == tf2_msgs::TFMessage::kType ||
+                         (options_.with_sonars && message.type == sensor_msgs::Range::kType);
+  // Docent's virtual measurements come from the map, not from a sensor.
+  if (!is_wanted || message.topic.starts_with("/docent/")) return;
+  if (std::abs(to_seconds(message.time)) > kLastSecond)
+    return refuse(message.topic, "the time in the file lies beyond the year 2106");
   if (message.type == sensor_msgs::LaserScan::kType) {
-    // Docent's virtual measurements come from the map, not from a sensor.
-    if (message.topic.starts_with("/docent/")) return {};
-    auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
-    if (!scan) return damaged();
-    if (scan->ranges.empty()) return {};
-    *scan = in_order(std::move(*scan));
-    if (!admits(*scan, message.topic)) return {};
-    ranges_.add(message.topic, scan->ranges, static_cast<double>(scan->range_max));
-    add_scan(*scan, message.time);
-  } else if (with_sonars_ && message.type == sensor_msgs::Range::kType) {
-    const auto range = decode_cdr<sensor_msgs::Range>(message.data);
-    if (!range) return damaged();
-    if (admits(*range, message.topic)) add_ping(*range, message.time);
+    add_as<sensor_msgs::LaserScan>(message, &RosLaserLogBuilder::take_scan);
+  } else if (message.type == sensor_msgs::Range::kType) {
+    add_as<sensor_msgs::Range>(message, &RosLaserLogBuilder::take_ping);
   } else if (message.type == nav_msgs::Odometry::kType) {
-    const auto odometry = decode_cdr<nav_msgs::Odometry>(message.data);
-    if (!odometry) return damaged();
-    if (!admits(*odometry, message.topic)) return {};
-    LoggedOdometry reading;
-    reading.time = from_message(odometry->header.stamp);
-    if (reading.time.nanoseconds == 0) reading.time = message.time;
-    reading.time = stamps_[message.topic].follow(reading.time);
-    reading.odom_from_base = from_message(odometry->pose.pose);
-    reading.linear = odometry->twist.twist.linear.x;
-    reading.angular = odometry->twist.twist.angular.z;
-    odometry_[message.topic].push_back(reading);
-    base_frames_[message.topic] = without_slash(odometry->child_frame_id);
-  } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf") {
-    const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
-    if (!transforms) return damaged();
-    for (const auto& transform : transforms->transforms)
-      if (is_odometry(transform) && admits(transform, message.topic)) add_odometry(transform, message.time);
-  } else if (message.type == tf2_msgs::TFMessage::kType && message.topic == "/tf_static") {
-    const auto transforms = decode_cdr<tf2_msgs::TFMessage>(message.data);
-    if (!transforms) return damaged();
-    for (const auto& transform : transforms->transforms)
-      if (admits(transform, message.topic)) static_transforms_[without_slash(transform.child_frame_id)] = transform;
+    add_as<nav_msgs::Odometry>(message, &RosLaserLogBuilder::take_odometry);
+  } else {
+    add_as<tf2_msgs::TFMessage>(message, &RosLaserLogBuilder::take_transforms);
   }
-  return {};
 }
 
-void RosLaserLogBuilder::add_odometry(const geometry_msgs::TransformStamped& transform, Time log_time) {
+void RosLaserLogBuilder::take_scan(const std::string& topic, sensor_msgs::LaserScan message, Time recorded) {
+  if (message.ranges.empty()) return;
+  message = in_order(std::move(message));
+  if (const MessageFault fault = fault_of(message)) return refuse(topic, fault.text());
+  message.header.frame_id = plain_frame(message.header.frame_id);
+  message.intensities.clear();
+  scans_[topic].push_back({stamp_of(message.header, recorded), std::move(message)});
+}
+
+void RosLaserLogBuilder::take_odometry(const std::string& topic, nav_msgs::Odometry message, Time recorded) {
+  if (const MessageFault fault = fault_of(message)) return refuse(topic, fault.text());
   LoggedOdometry reading;
-  reading.time = from_message(transform.header.stamp);
-  if (reading.time.nanoseconds == 0) reading.time = log_time;
-  reading.time = stamps_["/tf"].follow(reading.time);
-  reading.odom_from_base = from_message(geometry_msgs::Pose{
-      {transform.transform.translation.x, transform.transform.translation.y, 0.0}, transform.transform.rotation});
-  tf_odometry_.push_back(reading);
-  tf_base_frame_ = without_slash(transform.child_frame_id);
+  reading.odom_from_base = from_message(message.pose.pose);
+  reading.linear = message.twist.twist.linear.x;
+  reading.angular = message.twist.twist.angular.z;
+  OdometryTopic& of = odometry_[topic];
+  of.readings.push_back({stamp_of(message.header, recorded), reading});
+  of.parent = plain_frame(message.header.frame_id);
+  of.child = plain_frame(message.child_frame_id);
 }
 
-void RosLaserLogBuilder::add_scan(const sensor_msgs::LaserScan& message, Time log_time) {
-  Scan scan;
-  scan.time = from_message(message.header.stamp);
-  if (scan.time.nanoseconds == 0) scan.time = log_time;
-  scan.frame = without_slash(message.header.frame_id);
-  scan.time = stamps_["scans of " + scan.frame].follow(scan.time);
-  scan.scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
-  scan.scan.bearing_step = static_cast<double>(message.angle_increment);
-  scan.scan.ranges.reserve(message.ranges.size());
-  for (const float range : message.ranges) {
-    const bool no_return = range >= message.range_max;  // +infinity too
-    const bool is_zero = range == 0.0F;                 // what it means is settled in the end
-    const bool invalid = !is_zero && (!(range >= message.range_min) || !(range > 0.0F));
-    scan.scan.ranges.push_back(no_return ? std::numeric_limits<float>::infinity()
-                                         : (invalid ? std::numeric_limits<float>::quiet_NaN() : range));
+void RosLaserLogBuilder::take_transforms(const std::string& topic, tf2_msgs::TFMessage message, Time recorded) {
+  const std::string name = topic.substr(topic.rfind('/') + 1);
+  if (name != "tf" && name != "tf_static") return;
+  FrameTree& frames = frames_[name_space_of(topic)];
+  for (auto& transform : message.transforms) {
+    if (const MessageFault fault = fault_of(transform)) {
+      refuse(topic, fault.text());
+    } else if (name == "tf_static") {
+      frames.add_static(transform);
+    } else if (tells_odometry(transform)) {
+      LoggedOdometry reading;
+      const auto& place = transform.transform.translation;
+      reading.odom_from_base = from_message(geometry_msgs::Pose{{place.x, place.y, 0.0}, transform.transform.rotation});
+      OdometryTopic& of = tf_odometry_[name_space_of(topic)];
+      of.readings.push_back({stamp_of(transform.header, recorded), reading});
+      of.parent = plain_frame(transform.header.frame_id);
+      of.child = plain_frame(transform.child_frame_id);
+    } else {
+      frames.add_moving(transform);
+    }
   }
-  if (message.range_max < kFarthestReading) scan.scan.max_range = static_cast<double>(message.range_max);
-  if (message.range_max < kFarthestReading)
-    log_.max_range = std::max(log_.max_range, static_cast<double>(message.range_max));
-  scans_.push_back(std::move(scan));
 }
 
-void RosLaserLogBuilder::add_ping(const sensor_msgs::Range& message, Time log_time) {
+void RosLaserLogBuilder::take_ping(const std::string& topic, sensor_msgs::Range message, Time recorded) {
   constexpr std::uint8_t kUltrasound = 0;
+  if (const MessageFault fault = fault_of(message)) return refuse(topic, fault.text());
   if (message.radiation_type != kUltrasound) return;
   const bool no_return = message.range >= message.max_range;  // +infinity too
   if (!no_return && !(message.range >= message.min_range && message.range > 0.0F)) return;
   Ping ping;
-  ping.frame = without_slash(message.header.frame_id);
-  ping.ping.time = from_message(message.header.stamp);
-  if (ping.ping.time.nanoseconds == 0) ping.ping.time = log_time;
+  ping.frame = plain_frame(message.header.frame_id);
+  ping.ping.time = stamp_of(message.header, recorded).stamp;
   ping.ping.range = no_return ? std::numeric_limits<float>::infinity() : message.range;
   log_.sonar_max_range = std::max(log_.sonar_max_range, static_cast<double>(message.max_range));
   pings_.push_back(std::move(ping));
@@ -160,9 +132,9 @@ void RosLaserLogBuilder::finish_pings() {
   std::map<std::string, int> sonars;  // by frame; -1: nobody knows where it is
   for (const Ping& ping : pings_) sonars[ping.frame] = -1;
   for (auto& [frame, index] : sonars) {
-    if (const auto mount = mount_of(frame)) {
+    if (const auto mount = frames_of(chosen_.robot + "/tf").mount_of(frame, base_frame_)) {
       index = static_cast<int>(log_.base_from_sonar.size());
-      log_.base_from_sonar.push_back(mount->base_from_laser);
+      log_.base_from_sonar.push_back(mount->base_from_sensor);
     } else {
       log_.notes.push_back("the place of the sonar '" + frame + "' is unknown: its readings are left out");
     }
@@ -172,51 +144,78 @@ void RosLaserLogBuilder::finish_pings() {
   for (Ping& ping : pings_) {
     ping.ping.sonar = sonars[ping.frame];
     if (ping.ping.sonar < 0) continue;
-    ping.ping.odom_from_base = odometry_at(ping.ping.time);
+    ping.ping.odom_from_base = odometry_at(log_, ping.ping.time);
     log_.pings.push_back(ping.ping);
   }
 }
 
-std::optional<RosLaserLogBuilder::Mount> RosLaserLogBuilder::mount_of(const std::string& frame) const {
-  // From the laser up to the base: each link takes what is known of the laser into its parent's frame.
-  geometry_msgs::Vector3 origin{};
-  geometry_msgs::Vector3 ahead{1.0, 0.0, 0.0};
-  geometry_msgs::Vector3 up{0.0, 0.0, 1.0};
-  std::string at = frame;
-  for (int links = 0; links < kMostLinks; ++links) {
-    if (at == base_frame_ || at == "base_link" || at == "base_footprint") {
-      Mount mount;
-      mount.base_from_laser = {origin.x, origin.y, Angle::radians(std::atan2(ahead.y, ahead.x))};
-      mount.is_upside_down = up.z < 0.0;
-      if (norm(mount.base_from_laser.position()) > kFarthestMount) return std::nullopt;
-      return mount;
-    }
-    const auto link = static_transforms_.find(at);
-    if (link == static_transforms_.end()) return std::nullopt;
-    const geometry_msgs::Transform& parent_from_child = link->second.transform;
-    origin = rotated(parent_from_child.rotation, origin);
-    origin = {origin.x + parent_from_child.translation.x, origin.y + parent_from_child.translation.y,
-              origin.z + parent_from_child.translation.z};
-    ahead = rotated(parent_from_child.rotation, ahead);
-    up = rotated(parent_from_child.rotation, up);
-    at = without_slash(link->second.header.frame_id);
-  }
-  return std::nullopt;
+std::string RosLaserLogBuilder::refused_text() const {
+  std::string text;
+  for (const auto& [topic, refused] : refused_)
+    text += (text.empty() ? "" : ", ") + std::to_string(refused.count) + " of " + topic + " (" + refused.first + ")";
+  return text;
 }
 
-Pose2 RosLaserLogBuilder::odometry_at(Time time) const {
-  const auto& readings = log_.odometry;
-  if (readings.empty()) return {};
-  const auto after = std::lower_bound(readings.begin(), readings.end(), time,
-                                      [](const LoggedOdometry& reading, Time wanted) { return reading.time < wanted; });
-  if (after == readings.begin()) return after->odom_from_base;
-  if (after == readings.end()) return readings.back().odom_from_base;
-  const LoggedOdometry& before = *std::prev(after);
-  const double share = to_seconds(time - before.time) / to_seconds(after->time - before.time);
-  const Pose2& a = before.odom_from_base;
-  const Pose2& b = after->odom_from_base;
-  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
-          Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
+void RosLaserLogBuilder::note_clock(const std::string& name, std::size_t mended, std::size_t of) {
+  if (mended == 0) return;
+  log_.notes.push_back("the clock that stamps " + name + " jumps or stands: " + std::to_string(mended) + " of " +
+                       std::to_string(of) + " stamps are moved by the times of the file");
+}
+
+const FrameTree& RosLaserLogBuilder::frames_of(const std::string& topic) const {
+  static const FrameTree kNone;
+  for (std::string around = name_space_of(topic); !around.empty(); around = name_space_of(around))
+    if (const auto frames = frames_.find(around); frames != frames_.end()) return frames->second;
+  const auto all = frames_.find("");
+  return all == frames_.end() ? kNone : all->second;
+}
+
+Result<void> RosLaserLogBuilder::choose() {
+  RecordedTopics recorded;
+  std::string any_base;
+  for (const auto& [topic, of] : odometry_) {
+    recorded.odometry[topic] = {of.readings.size(), of.parent};
+    any_base = of.child;
+  }
+  for (const auto& [name_space, of] : tf_odometry_) recorded.transforms[name_space] = of.readings.size();
+  for (const auto& [topic, scans] : scans_) {
+    const std::string& frame = scans.front().message.header.frame_id;
+    recorded.scans[topic] = {scans.size(), frame, frames_of(topic).mount_of(frame, any_base).has_value()};
+  }
+  auto chosen = choose_topics(recorded, options_.topics);
+  if (!chosen) return tl::unexpected<Error>(chosen.error());
+  chosen_ = std::move(*chosen);
+  log_.notes.insert(log_.notes.end(), chosen_.notes.begin(), chosen_.notes.end());
+  log_.sources = "scans of " + listed(chosen_.scans) +
+                 (!chosen_.odometry.empty()    ? ", odometry of " + chosen_.odometry
+                  : chosen_.is_by_transforms ? ", odometry of the transforms of " + chosen_.transforms + "/tf"
+                                             : ", no odometry");
+  return {};
+}
+
+void RosLaserLogBuilder::use_odometry() {
+  OdometryTopic none;
+  OdometryTopic& of = !chosen_.odometry.empty()  ? odometry_[chosen_.odometry]
+                      : chosen_.is_by_transforms ? tf_odometry_[chosen_.transforms]
+                                                 : none;
+  if (of.readings.empty()) log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
+  base_frame_ = of.child;
+  const std::string name = chosen_.odometry.empty() ? chosen_.transforms + "/tf" : chosen_.odometry;
+  std::vector<RecordedStamp> stamps;
+  for (const Odometry& one : of.readings) stamps.push_back(one.stamp);
+  const MendedStamps mended = mended_stamps(stamps);
+  odometry_ahead_ = mended.ahead;
+  note_clock(name, mended.mended, stamps.size());
+  RisingStamps rising;
+  for (std::size_t i = 0; i < of.readings.size(); ++i) {
+    of.readings[i].reading.time = rising.follow(mended.times[i]);
+    log_.odometry.push_back(of.readings[i].reading);
+  }
+  if (rising.set_back() > 0)
+    log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
+  take_out_jumps();
+  std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
+                   [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
 }
 
 void RosLaserLogBuilder::take_out_jumps() {
@@ -231,17 +230,57 @@ void RosLaserLogBuilder::take_out_jumps() {
   }
   log_.odometry = std::move(kept);
   if (std::string note = unbroken.note(); !note.empty()) log_.notes.push_back(std::move(note));
-  for (const auto& [name, stamps] : stamps_)
-    if (stamps.set_back() > 0)
-      log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
 }
 
-std::string RosLaserLogBuilder::refused_text() const {
-  std::string text;
-  for (const auto& [topic, refused] : refused_)
-    text +=
-        (text.empty() ? "" : ", ") + std::to_string(refused.count) + " of " + topic + " (" + refused.first.text() + ")";
-  return text;
+void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
+  std::vector<Scan>& scans = scans_[topic];
+  std::vector<RecordedStamp> stamps;
+  for (const Scan& one : scans) stamps.push_back(one.stamp);
+  const MendedStamps mended = mended_stamps(stamps);
+  note_clock("the scans of " + topic, mended.mended, stamps.size());
+  Duration shift{};
+  if (const Duration apart = mended.ahead - ahead; !log_.odometry.empty() && (apart > kApart || apart < -kApart)) {
+    shift = apart;
+    log_.notes.push_back("the scans of " + topic + " are stamped by a clock that is " + std::to_string(std::llround(to_seconds(apart))) +
+                         " s ahead of that of odometry: they are moved by the times of the file");
+  }
+  RisingStamps rising;
+  const std::string frame = scans.front().message.header.frame_id;
+  const auto mount = frames_of(topic).mount_of(frame, base_frame_);
+  if (!mount) log_.notes.push_back("the place of the laser '" + frame + "' is unknown: the robot's centre is taken");
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const sensor_msgs::LaserScan& message = scans[i].message;
+    const auto range_max = static_cast<double>(message.range_max);
+    ranges_.add(topic, message.ranges, range_max);
+    LoggedScan scan;
+    scan.time = rising.follow(mended.times[i] - shift);
+    scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
+    scan.bearing_step = static_cast<double>(message.angle_increment);
+    scan.ranges.reserve(message.ranges.size());
+    for (const float range : message.ranges) {
+      const bool no_return = range >= message.range_max;  // +infinity too
+      const bool is_zero = range == 0.0F;                 // what it means is settled in the end
+      const bool invalid = !is_zero && (!(range >= message.range_min) || !(range > 0.0F));
+      scan.ranges.push_back(no_return ? std::numeric_limits<float>::infinity()
+                                      : (invalid ? std::numeric_limits<float>::quiet_NaN() : range));
+    }
+    if (message.range_max < kFarthestReading) {
+      scan.max_range = range_max;
+      log_.max_range = std::max(log_.max_range, range_max);
+    }
+    if (mount) {
+      scan.base_from_laser = mount->base_from_sensor;
+      if (mount->is_upside_down) {
+        scan.first_bearing = -scan.first_bearing;
+        scan.bearing_step = -scan.bearing_step;
+      }
+    }
+    scan.rear = std::abs(scan.base_from_laser.theta.degrees()) > 90.0;
+    log_.scans.push_back(std::move(scan));
+    scan_frames_.push_back(frame);
+  }
+  if (rising.set_back() > 0)
+    log_.notes.push_back("the clock that stamps the scans of " + topic + " was set back: later stamps are moved as far");
 }
 
 Result<LaserLog> RosLaserLogBuilder::finish() {
@@ -249,44 +288,23 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
   if (scans_.empty())
     return fail(refused.empty() ? "holds no laser scan" : "holds no laser scan that is fit; refused: " + refused);
   if (!refused.empty()) log_.notes.push_back("messages that cannot be were left out: " + refused);
+  if (auto chosen = choose(); !chosen) return tl::unexpected<Error>(chosen.error());
+  use_odometry();
+  for (const std::string& topic : chosen_.scans) use_scans(topic, odometry_ahead_);
   if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());
-  const auto most = std::max_element(odometry_.begin(), odometry_.end(),
-                                     [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  if (most == odometry_.end() && !tf_odometry_.empty()) {
-    log_.odometry = std::move(tf_odometry_);
-    base_frame_ = tf_base_frame_;
-    log_.notes.emplace_back("there is no odometry topic: the transform odom -> " + base_frame_ + " of /tf is taken");
-  } else if (most == odometry_.end()) {
-    log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
-  } else {
-    log_.odometry = std::move(most->second);
-    base_frame_ = base_frames_[most->first];
-    if (odometry_.size() > 1) log_.notes.push_back("of several odometry topics " + most->first + " is used");
-  }
-  take_out_jumps();
-  std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
-                   [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
-  std::stable_sort(scans_.begin(), scans_.end(), [](const Scan& a, const Scan& b) { return a.time < b.time; });
-  std::set<std::string> without_place;
-  std::vector<std::string> frames;  // [scans]
-  for (Scan& entry : scans_) {
-    LoggedScan& scan = entry.scan;
-    scan.time = entry.time;
-    scan.odom_from_base = odometry_at(entry.time);
+  std::vector<std::size_t> order(log_.scans.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return log_.scans[a].time < log_.scans[b].time; });
+  std::vector<LoggedScan> scans;
+  std::vector<std::string> frames;
+  for (const std::size_t i : order) {
+    LoggedScan& scan = log_.scans[i];
+    scan.odom_from_base = odometry_at(log_, scan.time);
     scan.logged_pose = scan.odom_from_base;
-    if (const auto mount = mount_of(entry.frame)) {
-      scan.base_from_laser = mount->base_from_laser;
-      if (mount->is_upside_down) {
-        scan.first_bearing = -scan.first_bearing;
-        scan.bearing_step = -scan.bearing_step;
-      }
-    } else if (without_place.insert(entry.frame).second) {
-      log_.notes.push_back("the place of the laser '" + entry.frame + "' is unknown: the robot's centre is taken");
-    }
-    scan.rear = std::abs(scan.base_from_laser.theta.degrees()) > 90.0;
-    log_.scans.push_back(std::move(scan));
-    frames.push_back(entry.frame);
+    scans.push_back(std::move(scan));
+    frames.push_back(scan_frames_[i]);
   }
+  log_.scans = std::move(scans);
   finish_pings();
   if (!(log_.max_range > 0.0)) {
     for (const LoggedScan& scan : log_.scans)

@@ -14,6 +14,7 @@
 #include <queue>
 
 #include "docent/recording/mcap/format.h"
+#include "docent/recording/mcap/lz4.h"
 
 namespace docent::recording {
 namespace {
@@ -238,6 +239,10 @@ Result<std::vector<std::uint8_t>> McapReader::State::unpack(const Piece& piece) 
     records.resize(static_cast<std::size_t>(size));
     const std::size_t unpacked = ZSTD_decompress(records.data(), records.size(), packed.data(), packed.size());
     if (ZSTD_isError(unpacked) != 0 || unpacked != size) return broken("a chunk that cannot be unpacked");
+  } else if (compression == "lz4") {
+    auto unpacked = mcap::unpack_lz4(packed, static_cast<std::size_t>(size));
+    if (!unpacked) return broken("a chunk that cannot be unpacked");
+    records = std::move(*unpacked);
   } else {
     return broken("a chunk with unknown compression '" + compression.substr(0, 20) + "'");
   }

@@ -66,7 +66,7 @@ std::vector<recording::LaserLog> read_logs(const Options& options) {
   const bool sonar = options.sensor == "sonar";
   std::vector<recording::LaserLog> logs;
   for (const std::string& name : options.logs) {
-    logs.push_back(value_or_fail(recording::read_laser_log(name, sonar)));
+    logs.push_back(value_or_fail(recording::read_laser_log(name, {.with_sonars = sonar})));
     for (const std::string& note : logs.back().notes) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
     if (sonar && logs.back().pings.empty()) throw CommandFailed{name + ": holds no readings of sonars with a place"};
     if (sonar && logs.back().sonar_max_range != logs.front().sonar_max_range)

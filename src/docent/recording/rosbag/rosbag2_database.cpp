@@ -1,8 +1,11 @@
-#include "docent/recording/rosbag2_database.h"
+#include "docent/recording/rosbag/rosbag2_database.h"
 
 #include <sqlite3.h>
 
 #include <memory>
+#include <vector>
+
+#include "docent/recording/rosbag/unpacking.h"
 
 namespace docent::recording {
 namespace {
@@ -42,7 +45,13 @@ Result<void> read_rosbag2_database(const std::filesystem::path& path,
     const std::string type = text_of(prepared, 1);
     const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(prepared, 3));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(prepared, 3));
-    if (!handler({topic, type, Time{sqlite3_column_int64(prepared, 2)}, {data, data == nullptr ? 0 : size}})) return {};
+    std::span<const std::uint8_t> content{data, data == nullptr ? 0 : size};
+    std::vector<std::uint8_t> unpacked;
+    if (is_zstd(content)) {
+      if (auto whole = unpack_zstd(content)) unpacked = std::move(*whole);
+      content = unpacked;  // nothing, where it is damaged
+    }
+    if (!handler({topic, type, Time{sqlite3_column_int64(prepared, 2)}, content})) return {};
   }
 }
 
