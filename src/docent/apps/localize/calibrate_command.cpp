@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "docent/apps/localize/log_reference.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
@@ -22,6 +23,7 @@ namespace {
 struct CalibrateOptions {
   std::string log;
   std::string robot;
+  recording::WantedTopics topics;
   std::string report;
   double from = 0.0;
   double to = 1.0;
@@ -152,7 +154,7 @@ void print_block(const mapping::MountCalibrator& calibrator, const robot::RobotB
 void calibrate(const CalibrateOptions& options) {
   if (!(options.from >= 0.0 && options.from < options.to && options.to <= 1.0))
     throw CommandFailed{"0 <= --from < --to <= 1 must hold", 2};
-  const recording::LaserLog log = value_or_fail(recording::read_laser_log(options.log));
+  const recording::LaserLog log = value_or_fail(recording::read_laser_log(options.log, {.topics = options.topics}));
   for (const std::string& note : log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::vector<mapping::NominalScanner> as_recorded = scanners_of(log);
   std::vector<mapping::NominalScanner> scanners = as_recorded;
@@ -179,9 +181,10 @@ void add_calibrate_command(CLI::App& app) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command =
       app.add_subcommand("calibrate", "Where the scanners of a recorded drive are mounted, as a block for robot.yaml");
-  command->add_option("--log", options->log, "recording: MCAP, rosbag2 or CARMEN")
+  command->add_option("--log", options->log, "recording: MCAP, rosbag2, a bag of ROS 1 or CARMEN")
       ->check(CLI::ExistingPath)
       ->required();
+  add_topic_options(*command, options->topics, false);
   command
       ->add_option("--robot", options->robot, "robot.yaml whose scanners these are; without: as the recording has them")
       ->check(CLI::ExistingFile);

@@ -103,6 +103,8 @@ nlohmann::json report_of(const recording::LaserLog& log, const LogRun& run, cons
   const double updates = static_cast<double>(std::max<std::size_t>(run.updates, 1));
   nlohmann::json report;
   report["scans"] = log.scans.size();
+  if (!log.sources.empty()) report["sources"] = log.sources;
+  report["notes"] = log.notes;
   report["updates"] = run.updates;
   report["seconds_per_scan"] = {
       {"first", run.seconds_first}, {"median", quantile(run.seconds, 0.5)}, {"p99", quantile(run.seconds, 0.99)}};

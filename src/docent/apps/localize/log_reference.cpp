@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <utility>
 
@@ -28,9 +29,21 @@ void filter_scans(ReferencedLog& referenced, const std::function<bool(std::size_
 
 }  // namespace
 
+void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot) {
+  command.add_option("--scan", topics.scans, "topic of scans in a recording of ROS, e.g. /scan; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("TOPIC");
+  command.add_option("--odom", topics.odometry, "topic of odometry in it, e.g. /odom")->type_name("TOPIC");
+  if (has_robot)
+    command.add_option("--robot", topics.robot, "name space of one of the robots in it, e.g. /robot1")->type_name("NAME");
+}
+
 void add_log_options(CLI::App& command, LogChoice& choice) {
-  command.add_option("--log", choice.log, "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database")
+  command
+      .add_option("--log", choice.log,
+                  "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database, or bag of ROS 1")
       ->required();
+  add_topic_options(command, choice.topics);
   command.add_option("--reference", choice.reference,
                      "where the robot truly was: a file of \"time x y theta\" [s, m, rad], or logged: the log is a "
                      "corrected one and holds the poses itself");
@@ -40,8 +53,9 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
 }
 
 ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps) {
-  ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log)), {}};
+  ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log, {.topics = choice.topics})), {}};
   const recording::LaserLog& log = referenced.log;
+  if (!log.sources.empty()) std::fprintf(stderr, "note: %s is read as %s\n", choice.log.c_str(), log.sources.c_str());
   for (std::string& lie : lies_in(log)) referenced.log.notes.push_back(std::move(lie));
   if (choice.reference.empty()) {
     referenced.reference.resize(log.scans.size());

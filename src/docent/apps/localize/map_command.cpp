@@ -281,6 +281,8 @@ void make_map(const MapOptions& options) {
   };
   report.update(nlohmann::json{{"log", options.choice.log},
                                {"scans", referenced.log.scans.size()},
+                               {"sources", referenced.log.sources},
+                               {"notes", referenced.log.notes},
                                {"scans_with_a_pose", placed.size()},
                                {"columns", map.frame.columns},
                                {"rows", map.frame.rows},
