@@ -251,7 +251,11 @@ TEST_F(LaserLogFolder, FaultsNameTheFile) {
   std::vector<Raw> damaged = drive();
   damaged[5].data.resize(20);
   write_mcap(folder_ / "damaged.mcap", damaged);
-  for (const char* name : {"a.db3", "a.mcap", "a.log", "empty", "silent.mcap", "damaged.mcap", "absent"}) {
+  const auto one = read_laser_log(folder_ / "damaged.mcap");  // of 200 messages
+  ASSERT_TRUE(one) << one.error().message;
+  ASSERT_EQ(one->notes.size(), 1U);
+  EXPECT_NE(one->notes.front().find("(damaged)"), std::string::npos) << one->notes.front();
+  for (const char* name : {"a.db3", "a.mcap", "a.log", "empty", "silent.mcap", "absent"}) {
     const auto log = read_laser_log(folder_ / name);
     ASSERT_FALSE(log) << name;
     EXPECT_EQ(log.error().message.rfind((folder_ / name).string() + ":", 0), 0U) << log.error().message;

@@ -11,6 +11,7 @@
 #include "docent/base/suggestion.h"
 #include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
+#include "docent/robot/body_notes.h"
 #include "docent/robot/parameter_list.h"
 
 namespace docent::apps::config_command {
@@ -115,6 +116,7 @@ void add_config_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->callback([options] {
     const robot::RobotConfig config = value_or_fail(options->deployment.load_config(), 2);
+    for (const std::string& note : robot::body_notes(config.body())) std::fprintf(stderr, "note: %s\n", note.c_str());
     std::fputs(value_or_fail(commented_config(config, options->sections), 2).c_str(), stdout);
   });
 }

@@ -192,7 +192,7 @@ class MissionModule final : public Module {
     });
     bus_.subscribe<docent_msgs::Limits>(topics::kLimits, [this](const auto& message) { mode_.limits(message); });
     bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& message) {
-      if (!message.present || !std::isfinite(message.percentage)) return;
+      if (says_nothing(message) || !std::isfinite(message.percentage)) return;
       // Many a gauge never shows a whole charge: full is what the battery calls so.
       const double charge = is_full(message) ? 1.0 : static_cast<double>(message.percentage);
       service_.battery(charge, is_charging(message), bus_.now());

@@ -324,7 +324,7 @@ TEST(Tour, ChargesServesAfterwardsAndSaysUntilWhen) {
     sensor_msgs::BatteryState message;
     message.percentage = static_cast<float>(charge);
     message.power_supply_status = is_charging ? 1 : 2;
-    message.present = true;
+    message.present = false;  // as most drivers leave it
     battery.publish(std::move(message));
   });
   rehearsal.run_for(10);

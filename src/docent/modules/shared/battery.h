@@ -7,6 +7,10 @@
 
 namespace docent::modules {
 
+/// A message that nobody has filled in. Drivers leave `present` false whether there is a battery or not.
+[[nodiscard]] inline bool says_nothing(const sensor_msgs::BatteryState& battery) {
+  return !battery.present && battery.percentage == 0.0F && !(battery.voltage > 0.0F) && !(battery.charge > 0.0F);
+}
 /// The charger says that the battery is full, and holds it there.
 [[nodiscard]] inline bool is_full(const sensor_msgs::BatteryState& battery) {
   constexpr std::uint8_t kFull = 4;
