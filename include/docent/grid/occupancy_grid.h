@@ -63,15 +63,16 @@ struct OccupancyGrid {
   [[nodiscard]] bool is_free(CellIndex cell) const { return at(cell) >= 0 && at(cell) < 20; }
 };
 
-/// A map as a file has it, and what a person should know of how it was read: keys that nobody knows, a turn, a file that is
-/// longer than it says.
+/// A map as a file has it, and what a person should know of how it was read: keys that nobody knows, a turn, a file
+/// that is longer than it says.
 struct LoadedMap {
   OccupancyGrid map;
   std::vector<std::string> notes;
 };
 
-/// Reads a map_server YAML and its PGM (P2, P5) or PNG image. Faults name file and line. An origin with a yaw turns the map
-/// into a grid along the axes; of an image of more than 25 million pixels whose rim is unknown, what is known is kept.
+/// Reads a map_server YAML and its PGM (P2, P5) or PNG image. Faults name file and line. An origin with a yaw turns the
+/// map into a grid along the axes; of an image of more than 25 million pixels whose rim is unknown, what is known is
+/// kept.
 [[nodiscard]] Result<LoadedMap> read_map(const std::filesystem::path& yaml);
 /// The same without the notes.
 [[nodiscard]] Result<OccupancyGrid> load_map(const std::filesystem::path& yaml);

@@ -73,11 +73,12 @@ struct LaserLogOptions {
 /// Reads what `--log` names, by its content: a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or
 /// its database (.db3), packed or not, or a bag of ROS 1.
 ///
-/// Of a ROS recording it takes the sensor_msgs/LaserScan (not those under /docent/) and the nav_msgs/Odometry of one robot,
-/// or, where it has no such topic, the transform from odom of its /tf, interpolated at the scans' stamps (`choose_topics`); the
-/// lasers' places come from /tf_static, or from /tf where that says them again and again. A laser that hangs upside down is turned
-/// over, clockwise ones are read as they are. What 0 means, what a laser sees of the robot and how far it looks is found out
-/// from the whole recording. What was chosen, mended and left out: as `sources` and `notes` say.
+/// Of a ROS recording it takes the sensor_msgs/LaserScan (not those under /docent/) and the nav_msgs/Odometry of one
+/// robot, or, where it has no such topic, the transform from odom of its /tf, interpolated at the scans' stamps
+/// (`choose_topics`); the lasers' places come from /tf_static, or from /tf where that says them again and again. A
+/// laser that hangs upside down is turned over, clockwise ones are read as they are. What 0 means, what a laser sees of
+/// the robot and how far it looks is found out from the whole recording. What was chosen, mended and left out: as
+/// `sources` and `notes` say.
 ///
 /// Error: "FILE: …" or "FILE:LINE: …": unreadable, damaged, or without a scan.
 [[nodiscard]] Result<LaserLog> read_laser_log(const std::filesystem::path& path, const LaserLogOptions& options = {});

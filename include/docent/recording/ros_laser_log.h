@@ -20,8 +20,8 @@ class RosLaserLogBuilder {
  public:
   explicit RosLaserLogBuilder(const LaserLogOptions& options = {}) : options_{options} {}  ///< nothing was added yet
 
-  /// Messages that do not matter are passed over; those that are damaged or not fit (message_fitness.h) are left out, and a
-  /// note says so.
+  /// Messages that do not matter are passed over; those that are damaged or not fit (message_fitness.h) are left out,
+  /// and a note says so.
   void add(const Rosbag2Message& message);
   /// Error: no scan was in it, or none that is fit, or what was wanted is not there. Call once.
   [[nodiscard]] Result<LaserLog> finish();
@@ -50,7 +50,8 @@ class RosLaserLogBuilder {
   void refuse(const std::string& topic, const std::string& why);
   [[nodiscard]] std::string refused_text() const;
   template <class T>
-  void add_as(const Rosbag2Message& message, void (RosLaserLogBuilder::*take)(const std::string& topic, T message, Time recorded));
+  void add_as(const Rosbag2Message& message,
+              void (RosLaserLogBuilder::*take)(const std::string& topic, T message, Time recorded));
   void take_scan(const std::string& topic, sensor_msgs::LaserScan message, Time recorded);
   void take_ping(const std::string& topic, sensor_msgs::Range message, Time recorded);
   void take_odometry(const std::string& topic, nav_msgs::Odometry message, Time recorded);
@@ -67,10 +68,10 @@ class RosLaserLogBuilder {
   void note_clock(const std::string& name, std::size_t mended, std::size_t of);
 
   LaserLogOptions options_;
-  std::map<std::string, std::vector<Scan>> scans_;       ///< by topic
-  std::map<std::string, OdometryTopic> odometry_;        ///< by topic
-  std::map<std::string, OdometryTopic> tf_odometry_;     ///< by name space
-  std::map<std::string, FrameTree> frames_;              ///< by name space
+  std::map<std::string, std::vector<Scan>> scans_;    ///< by topic
+  std::map<std::string, OdometryTopic> odometry_;     ///< by topic
+  std::map<std::string, OdometryTopic> tf_odometry_;  ///< by name space
+  std::map<std::string, FrameTree> frames_;           ///< by name space
   std::vector<Ping> pings_;
   std::map<std::string, Refused> refused_;  ///< by topic
   RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording

@@ -121,7 +121,8 @@ template <class T>
 
 /// The same of a file that other programs write, who may add keys of their own: which those are.
 template <class T>
-[[nodiscard]] Result<std::vector<std::string>> read_yaml_leniently(const YamlFile& file, const YAML::Node& node, T& value) {
+[[nodiscard]] Result<std::vector<std::string>> read_yaml_leniently(const YamlFile& file, const YAML::Node& node,
+                                                                   T& value) {
   try {
     YamlReader reader{file, node};
     value.visit(reader);

@@ -15,12 +15,14 @@ struct Kind {
 };
 using namespace std::string_view_literals;
 constexpr Kind kOthers[] = {
-    {"BM"sv, "a BMP image"},           {"\xff\xd8\xff"sv, "a JPEG image"}, {"II*\0"sv, "a TIFF image"},
-    {"MM\0*"sv, "a TIFF image"},       {"GIF8"sv, "a GIF image"},          {"RIFF"sv, "a WebP image"},
-    {"P1"sv, "a bitmap (P1)"},         {"P3"sv, "a PPM image (P3)"},       {"P4"sv, "a bitmap (P4)"},
-    {"P6"sv, "a PPM image (P6)"},      {"P7"sv, "a PAM image"},            {"%PDF"sv, "a PDF document"},
-    {"<svg"sv, "an SVG drawing"},      {"<?xml"sv, "an XML document"},     {"PK\x03\x04"sv, "a ZIP archive"},
-    {"\x1f\x8b"sv, "a gzipped file"},
+    {"BM"sv, "a BMP image"},           {"\xff\xd8\xff"sv, "a JPEG image"},
+    {"II*\0"sv, "a TIFF image"},       {"MM\0*"sv, "a TIFF image"},
+    {"GIF8"sv, "a GIF image"},         {"RIFF"sv, "a WebP image"},
+    {"P1"sv, "a bitmap (P1)"},         {"P3"sv, "a PPM image (P3)"},
+    {"P4"sv, "a bitmap (P4)"},         {"P6"sv, "a PPM image (P6)"},
+    {"P7"sv, "a PAM image"},           {"%PDF"sv, "a PDF document"},
+    {"<svg"sv, "an SVG drawing"},      {"<?xml"sv, "an XML document"},
+    {"PK\x03\x04"sv, "a ZIP archive"}, {"\x1f\x8b"sv, "a gzipped file"},
 };
 
 }  // namespace

@@ -22,9 +22,9 @@ class MapImage {
   /// The next row. @param shades  [width], each 0 (black) to white(), or kClear
   [[nodiscard]] virtual Result<void> read_row(std::vector<std::uint32_t>& shades) = 0;
 
-  [[nodiscard]] long width() const { return width_; }            ///< [pixels]
-  [[nodiscard]] long height() const { return height_; }          ///< [pixels]
-  [[nodiscard]] std::uint32_t white() const { return white_; }   ///< the lightest shade
+  [[nodiscard]] long width() const { return width_; }              ///< [pixels]
+  [[nodiscard]] long height() const { return height_; }            ///< [pixels]
+  [[nodiscard]] std::uint32_t white() const { return white_; }     ///< the lightest shade
   [[nodiscard]] const std::string& note() const { return note_; }  ///< what is odd in the file; empty: nothing
 
  protected:

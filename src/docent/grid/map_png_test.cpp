@@ -18,14 +18,15 @@ struct Form {
 };
 
 /// Writes one image of `rows` whose samples are the file's own bytes.
-void write_png(const std::filesystem::path& path, int width, const Form& form, std::vector<std::vector<unsigned char>> rows) {
+void write_png(const std::filesystem::path& path, int width, const Form& form,
+               std::vector<std::vector<unsigned char>> rows) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   ASSERT_NE(file, nullptr);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_init_io(png, file);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(rows.size()), form.depth, form.colour,
-               form.interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(rows.size()), form.depth,
+               form.colour, form.interlace, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (form.has_gamma) png_set_gAMA(png, info, 1.0);
   const png_color palette[] = {{0, 0, 0}, {205, 205, 205}, {254, 254, 254}};
   if (form.colour == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 3);
@@ -49,7 +50,8 @@ class MapPng : public ::testing::Test {
     std::vector<std::uint32_t> shades;
     EXPECT_TRUE((*image)->read_row(shades));
     std::vector<long> of;
-    for (const auto shade : shades) of.push_back(shade == MapImage::kClear ? -1 : std::lround(1000.0 * shade / (*image)->white()));
+    for (const auto shade : shades)
+      of.push_back(shade == MapImage::kClear ? -1 : std::lround(1000.0 * shade / (*image)->white()));
     return of;
   }
   void TearDown() override { std::filesystem::remove(path_); }
@@ -73,7 +75,8 @@ TEST_F(MapPng, AColourIsTheMeanOfItsChannels) {
 }
 
 TEST_F(MapPng, WhatIsNotHalfOpaqueIsClear) {
-  EXPECT_EQ(row_of(3, {.colour = PNG_COLOR_TYPE_GRAY_ALPHA}, {{0, 0, 255, 254, 255, 100}}), (std::vector<long>{-1, 1000, -1}));
+  EXPECT_EQ(row_of(3, {.colour = PNG_COLOR_TYPE_GRAY_ALPHA}, {{0, 0, 255, 254, 255, 100}}),
+            (std::vector<long>{-1, 1000, -1}));
 }
 
 TEST_F(MapPng, ATornImageIsNamed) {

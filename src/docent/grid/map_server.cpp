@@ -65,7 +65,8 @@ Result<double> yaw_of(const std::string& text, std::vector<std::string>& notes) 
   }
   char* end = nullptr;
   const double yaw = std::strtod(plain.c_str(), &end);
-  if (plain.empty() || *end != '\0' || !std::isfinite(yaw)) return fail("origin must be [x, y, yaw], found '" + text + "'");
+  if (plain.empty() || *end != '\0' || !std::isfinite(yaw))
+    return fail("origin must be [x, y, yaw], found '" + text + "'");
   return std::remainder(yaw, 2.0 * std::numbers::pi);
 }
 
@@ -82,7 +83,8 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
   if (!(yaml.resolution >= kFinest && yaml.resolution < 10.0))
     return fault("resolution", "resolution must be in (0, 10) m");
   if (yaml.origin.size() != 3) return fault("origin", "origin must be [x, y, yaw]");
-  for (const auto& [text, field] : {std::pair{yaml.origin[0], &meaning.origin.x}, {yaml.origin[1], &meaning.origin.y}}) {
+  for (const auto& [text, field] :
+       {std::pair{yaml.origin[0], &meaning.origin.x}, {yaml.origin[1], &meaning.origin.y}}) {
     char* end = nullptr;
     *field = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0') return fault("origin", "origin must be [x, y, yaw], found '" + text + "'");
@@ -146,8 +148,9 @@ Result<std::vector<KnownPart>> read_rows(MapImage& image, const Meaning& meaning
   std::size_t known = 0;
   for (KnownPart& row : rows) {
     if (auto read = image.read_row(shades); !read) return tl::unexpected<Error>(read.error());
-    std::transform(shades.begin(), shades.end(), cells.begin(),
-                   [&](std::uint32_t shade) { return shade == MapImage::kClear ? OccupancyGrid::kUnknown : cell_of[shade]; });
+    std::transform(shades.begin(), shades.end(), cells.begin(), [&](std::uint32_t shade) {
+      return shade == MapImage::kClear ? OccupancyGrid::kUnknown : cell_of[shade];
+    });
     const auto first = std::find_if(cells.begin(), cells.end(), is_known);
     const auto last = std::find_if(cells.rbegin(), std::make_reverse_iterator(first), is_known).base();
     row.from = first - cells.begin();
@@ -176,35 +179,40 @@ Result<OccupancyGrid> grid_of(const MapImage& image, const std::vector<KnownPart
     left = std::max(0L, left - kRim), right = std::min(image.width(), right + kRim);
     top = std::max(0L, top - kRim), bottom = std::min(image.height(), bottom + kRim);
     if (cells_of() > kMost)
-      return fail(std::to_string(right - left) + " x " + std::to_string(bottom - top) + " pixels of it are known: more than " +
-                  std::to_string(kMost));
+      return fail(std::to_string(right - left) + " x " + std::to_string(bottom - top) +
+                  " pixels of it are known: more than " + std::to_string(kMost));
     if (2 * cells_of() > all && all <= kMost) left = top = 0, right = image.width(), bottom = image.height();
     if (cells_of() < all)
       notes.push_back("of " + std::to_string(image.width()) + " x " + std::to_string(image.height()) + " pixels the " +
-                      std::to_string(right - left) + " x " + std::to_string(bottom - top) + " round what is known are used");
+                      std::to_string(right - left) + " x " + std::to_string(bottom - top) +
+                      " round what is known are used");
   }
   OccupancyGrid map;
   map.frame = {static_cast<int>(right - left),
                static_cast<int>(bottom - top),
                meaning.resolution,
-               {static_cast<double>(left) * meaning.resolution, static_cast<double>(image.height() - bottom) * meaning.resolution}};
+               {static_cast<double>(left) * meaning.resolution,
+                static_cast<double>(image.height() - bottom) * meaning.resolution}};
   map.cells.assign(map.frame.size(), OccupancyGrid::kUnknown);
   for (long row = top; row < bottom; ++row) {
     const KnownPart& part = rows[static_cast<std::size_t>(row)];
     if (part.cells.empty()) continue;
     const CellIndex to{static_cast<int>(part.from - left), static_cast<int>(bottom - 1 - row)};
-    std::copy(part.cells.begin(), part.cells.end(), map.cells.begin() + static_cast<std::ptrdiff_t>(map.frame.index(to)));
+    std::copy(part.cells.begin(), part.cells.end(),
+              map.cells.begin() + static_cast<std::ptrdiff_t>(map.frame.index(to)));
   }
   return map;
 }
 
 /// Lays the map, whose frame begins at the image's corner, to where the file says.
 void place(OccupancyGrid& map, const MapImage& image, const Pose2& origin, std::vector<std::string>& notes) {
-  const double reach = map.frame.resolution * std::hypot(static_cast<double>(image.width()), static_cast<double>(image.height()));
+  const double reach =
+      map.frame.resolution * std::hypot(static_cast<double>(image.width()), static_cast<double>(image.height()));
   const bool is_turned = std::abs(origin.theta) * reach > 0.5 * map.frame.resolution;  // else no cell is another one
   if (is_turned) {
     map = turned(map, origin.theta);
-    notes.push_back("turned by " + std::to_string(std::lround(origin.theta * 1800.0 / std::numbers::pi) / 10.0).substr(0, 6) +
+    notes.push_back("turned by " +
+                    std::to_string(std::lround(origin.theta * 1800.0 / std::numbers::pi) / 10.0).substr(0, 6) +
                     " degrees, as the origin's yaw says");
   }
   map.frame.origin = map.frame.origin + Point2{origin.x, origin.y};

@@ -101,7 +101,8 @@ TEST_F(Maps, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("image: ok.pgm\nresolution: 1\norigin: [0, 0]\n"), "m.yaml:3: origin must be [x, y, yaw]");
   EXPECT_EQ(fault_of("image: short.pgm\nresolution: 1\norigin: [0, 0, 0]\n"),
             "short.pgm:4: PGM ends early: 4 bytes of pixels expected, 2 found");
-  EXPECT_EQ(fault_of("image: no.png\nresolution: 1\norigin: [0, 0, 0]\n"), "no.png:1: neither a PGM (P2, P5) nor a PNG image");
+  EXPECT_EQ(fault_of("image: no.png\nresolution: 1\norigin: [0, 0, 0]\n"),
+            "no.png:1: neither a PGM (P2, P5) nor a PNG image");
   EXPECT_NE(fault_of("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n").find("none.pgm: cannot be read"),
             std::string::npos);
 }
@@ -111,7 +112,8 @@ TEST_F(Maps, ReadsWhatMapServerReads) {
   write("m.pgm", "P2\n2 2\n255\n0 205 254 254\n");
   const std::string plain = "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n";
   const std::vector<std::int8_t> right{0, 0, 100, -1};
-  for (const std::string& odd : {"", "negate: false\n", "mode: Trinary\n", "mode: TRINARY\nnegate: False\n", "map_name: ground floor\n"}) {
+  for (const std::string& odd :
+       {"", "negate: false\n", "mode: Trinary\n", "mode: TRINARY\nnegate: False\n", "map_name: ground floor\n"}) {
     write("m.yaml", plain + odd);
     const auto read = read_map(folder_ / "m.yaml");
     ASSERT_TRUE(read) << odd << read.error().message;
@@ -128,7 +130,8 @@ TEST_F(Maps, AnyLineEndsOfAPgm) {
   write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
   const std::string cells{"\x00\xcd\xfe\xfe", 4};
   const std::vector<std::int8_t> right{0, 0, 100, -1};
-  for (const std::string& head : {"P5\n2 2\n255\n", "P5\r\n2 2\r\n255\r\n", "P5\r# by a saver\r2 2\r255\r", "P5 2 2 255 "}) {
+  for (const std::string& head :
+       {"P5\n2 2\n255\n", "P5\r\n2 2\r\n255\r\n", "P5\r# by a saver\r2 2\r255\r", "P5 2 2 255 "}) {
     for (const std::string& tail : {"", "\n"}) {
       write("m.pgm", head + cells + tail);
       const auto read = read_map(folder_ / "m.yaml");
@@ -138,14 +141,18 @@ TEST_F(Maps, AnyLineEndsOfAPgm) {
     }
   }
   write("m.pgm", "P5\r2 1\r255\r" + std::string{"\n\xfe", 2});
-  EXPECT_EQ(load_map(folder_ / "m.yaml")->cells, (std::vector<std::int8_t>{100, 0})) << "a dark first pixel is no line end";
+  EXPECT_EQ(load_map(folder_ / "m.yaml")->cells, (std::vector<std::int8_t>{100, 0}))
+      << "a dark first pixel is no line end";
   write("m.pgm", "P5\n2 2\n255\n" + cells + "more of it");
   ASSERT_EQ(read_map(folder_ / "m.yaml")->notes.size(), 1U);
   EXPECT_NE(read_map(folder_ / "m.yaml")->notes.front().find("10 bytes longer"), std::string::npos);
 }
 
 TEST_F(Maps, OtherImagesAreNamed) {
-  for (const auto& [begin, name] : {std::pair{"BM12345678", "BMP"}, {"\xff\xd8\xff\xe0 JFIF", "JPEG"}, {"II*", "TIFF"}, {"P6\n1 1\n255\nabc", "PPM"}}) {
+  for (const auto& [begin, name] : {std::pair{"BM12345678", "BMP"},
+                                    {"\xff\xd8\xff\xe0 JFIF", "JPEG"},
+                                    {"II*", "TIFF"},
+                                    {"P6\n1 1\n255\nabc", "PPM"}}) {
     write("m.img", std::string{begin} + std::string(1, '\0'));
     EXPECT_NE(fault_of("image: m.img\nresolution: 1\norigin: [0, 0, 0]\n").find(name), std::string::npos) << name;
   }
@@ -176,7 +183,9 @@ TEST_F(Maps, OfAHugeMapWhatIsKnownIsKept) {
   constexpr int kSide = 6000;
   std::string pgm = "P5\n6000 6000\n255\n" + std::string(std::size_t{kSide} * kSide, '\xcd');
   const std::size_t first = pgm.size() - std::size_t{kSide} * kSide;
-  const auto set = [&](int column, int row_from_above, char shade) { pgm[first + static_cast<std::size_t>(row_from_above) * kSide + static_cast<std::size_t>(column)] = shade; };
+  const auto set = [&](int column, int row_from_above, char shade) {
+    pgm[first + static_cast<std::size_t>(row_from_above) * kSide + static_cast<std::size_t>(column)] = shade;
+  };
   set(4000, 1000, '\0');
   set(4003, 1001, '\xfe');
   write("m.pgm", pgm);
@@ -185,7 +194,9 @@ TEST_F(Maps, OfAHugeMapWhatIsKnownIsKept) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->notes.size(), 1U);
   EXPECT_LT(read->map.frame.size(), 5000U);
-  const auto at = [&](double column, double row_from_above) { return read->map.at(read->map.frame.cell_at({-10 + 0.05 * column, 5 + 0.05 * (kSide - row_from_above)})); };
+  const auto at = [&](double column, double row_from_above) {
+    return read->map.at(read->map.frame.cell_at({-10 + 0.05 * column, 5 + 0.05 * (kSide - row_from_above)}));
+  };
   EXPECT_EQ(at(4000.5, 1000.5), 100);
   EXPECT_EQ(at(4003.5, 1001.5), 0);
   EXPECT_EQ(at(4002.5, 1001.5), -1);

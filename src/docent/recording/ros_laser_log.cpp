@@ -45,7 +45,8 @@ void RosLaserLogBuilder::refuse(const std::string& topic, const std::string& why
 }
 
 template <class T>
-void RosLaserLogBuilder::add_as(const Rosbag2Message& message, void (RosLaserLogBuilder::*take)(const std::string&, T, Time)) {
+void RosLaserLogBuilder::add_as(const Rosbag2Message& message,
+                                void (RosLaserLogBuilder::*take)(const std::string&, T, Time)) {
   auto content = decode_cdr<T>(message.data);
   if (!content) return refuse(message.topic, "damaged");
   (this->*take)(message.topic, std::move(*content), message.time);
@@ -187,7 +188,7 @@ Result<void> RosLaserLogBuilder::choose() {
   chosen_ = std::move(*chosen);
   log_.notes.insert(log_.notes.end(), chosen_.notes.begin(), chosen_.notes.end());
   log_.sources = "scans of " + listed(chosen_.scans) +
-                 (!chosen_.odometry.empty()    ? ", odometry of " + chosen_.odometry
+                 (!chosen_.odometry.empty()  ? ", odometry of " + chosen_.odometry
                   : chosen_.is_by_transforms ? ", odometry of the transforms of " + chosen_.transforms + "/tf"
                                              : ", no odometry");
   return {};
@@ -198,7 +199,8 @@ void RosLaserLogBuilder::use_odometry() {
   OdometryTopic& of = !chosen_.odometry.empty()  ? odometry_[chosen_.odometry]
                       : chosen_.is_by_transforms ? tf_odometry_[chosen_.transforms]
                                                  : none;
-  if (of.readings.empty()) log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
+  if (of.readings.empty())
+    log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
   base_frame_ = of.child;
   const std::string name = chosen_.odometry.empty() ? chosen_.transforms + "/tf" : chosen_.odometry;
   std::vector<RecordedStamp> stamps;
@@ -241,7 +243,8 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
   Duration shift{};
   if (const Duration apart = mended.ahead - ahead; !log_.odometry.empty() && (apart > kApart || apart < -kApart)) {
     shift = apart;
-    log_.notes.push_back("the scans of " + topic + " are stamped by a clock that is " + std::to_string(std::llround(to_seconds(apart))) +
+    log_.notes.push_back("the scans of " + topic + " are stamped by a clock that is " +
+                         std::to_string(std::llround(to_seconds(apart))) +
                          " s ahead of that of odometry: they are moved by the times of the file");
   }
   RisingStamps rising;
@@ -280,7 +283,8 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
     scan_frames_.push_back(frame);
   }
   if (rising.set_back() > 0)
-    log_.notes.push_back("the clock that stamps the scans of " + topic + " was set back: later stamps are moved as far");
+    log_.notes.push_back("the clock that stamps the scans of " + topic +
+                         " was set back: later stamps are moved as far");
 }
 
 Result<LaserLog> RosLaserLogBuilder::finish() {
@@ -294,7 +298,8 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
   if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());
   std::vector<std::size_t> order(log_.scans.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return log_.scans[a].time < log_.scans[b].time; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return log_.scans[a].time < log_.scans[b].time; });
   std::vector<LoggedScan> scans;
   std::vector<std::string> frames;
   for (const std::size_t i : order) {

@@ -7,8 +7,8 @@
 namespace docent::robot {
 namespace {
 
-/// Whether that many degrees are rather a whole share of a turn in radians, as 3.14159, -1.5708 and 2.356 are: no mount is
-/// said to a hundredth of a degree.
+/// Whether that many degrees are rather a whole share of a turn in radians, as 3.14159, -1.5708 and 2.356 are: no mount
+/// is said to a hundredth of a degree.
 bool looks_like_radians(double degrees) {
   constexpr double kStep = std::numbers::pi / 12.0;  // 15 degrees
   constexpr double kRounded = 0.006;                 // to two digits behind the point, as 1.57 is
@@ -25,7 +25,8 @@ std::vector<std::string> body_notes(const RobotBody& body) {
   for (const Scanner& scanner : body.scanners) {
     if (!looks_like_radians(scanner.heading)) continue;
     char text[160];
-    std::snprintf(text, sizeof text, "body.scanners, %s: a heading of %g is read as degrees; if radians are meant, write %.0f",
+    std::snprintf(text, sizeof text,
+                  "body.scanners, %s: a heading of %g is read as degrees; if radians are meant, write %.0f",
                   scanner.name.c_str(), scanner.heading, scanner.heading * 180.0 / std::numbers::pi);
     notes.emplace_back(text);
   }

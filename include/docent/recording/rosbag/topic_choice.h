@@ -27,24 +27,24 @@ struct RecordedTopics {
     std::size_t count = 0;
     std::string parent;  ///< "odom"
   };
-  std::map<std::string, Scans> scans;        ///< by topic
-  std::map<std::string, Odometry> odometry;  ///< by topic
+  std::map<std::string, Scans> scans;             ///< by topic
+  std::map<std::string, Odometry> odometry;       ///< by topic
   std::map<std::string, std::size_t> transforms;  ///< odometry told by transforms: readings, by the topic's name space
 };
 
 /// What is used of it.
 struct ChosenTopics {
-  std::string robot;                ///< name space; empty: there is none
-  std::vector<std::string> scans;   ///< topics
-  std::string odometry;             ///< topic; empty: none
-  std::string transforms;           ///< name space of the transforms that tell odometry, where no topic does
+  std::string robot;               ///< name space; empty: there is none
+  std::vector<std::string> scans;  ///< topics
+  std::string odometry;            ///< topic; empty: none
+  std::string transforms;          ///< name space of the transforms that tell odometry, where no topic does
   bool is_by_transforms = false;
-  std::vector<std::string> notes;   ///< what was left, and why
+  std::vector<std::string> notes;  ///< what was left, and why
 };
 
-/// Chooses the topics of one robot: those of a name space that has its own odometry belong together. Of several scans of one
-/// scanner the raw ones are taken, of several odometries that of the wheels with most messages; what is called ground
-/// truth, or lies in the map's frame, is never odometry. Error: what is wanted is not there; it says what is.
+/// Chooses the topics of one robot: those of a name space that has its own odometry belong together. Of several scans
+/// of one scanner the raw ones are taken, of several odometries that of the wheels with most messages; what is called
+/// ground truth, or lies in the map's frame, is never odometry. Error: what is wanted is not there; it says what is.
 [[nodiscard]] Result<ChosenTopics> choose_topics(const RecordedTopics& recorded, const WantedTopics& wanted);
 
 /// "/robot1" of "/robot1/tf"; empty for "/tf".

@@ -35,7 +35,8 @@ void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool 
       ->type_name("TOPIC");
   command.add_option("--odom", topics.odometry, "topic of odometry in it, e.g. /odom")->type_name("TOPIC");
   if (has_robot)
-    command.add_option("--robot", topics.robot, "name space of one of the robots in it, e.g. /robot1")->type_name("NAME");
+    command.add_option("--robot", topics.robot, "name space of one of the robots in it, e.g. /robot1")
+        ->type_name("NAME");
 }
 
 void add_log_options(CLI::App& command, LogChoice& choice) {

@@ -16,11 +16,12 @@ namespace docent::apps::localize_command {
 /// What `docent map` and `docent localize` are told about a log beside its name.
 struct LogChoice {
   std::string log;
-  std::string reference;      ///< "" none, "logged" the poses in the log itself, else a file of poses
-  std::string scans = "all";  ///< all, odd, even: the first scan of the log is odd
+  std::string reference;           ///< "" none, "logged" the poses in the log itself, else a file of poses
+  std::string scans = "all";       ///< all, odd, even: the first scan of the log is odd
   recording::WantedTopics topics;  ///< of a recording of ROS
 };
-/// The options that choose among the topics of a recording of ROS; without `has_robot` that of a robot is not among them.
+/// The options that choose among the topics of a recording of ROS; without `has_robot` that of a robot is not among
+/// them.
 void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot = true);
 void add_log_options(CLI::App& command, LogChoice& choice);
 

@@ -45,7 +45,8 @@ std::vector<fs::path> parts_of_bag(const fs::path& folder, std::vector<std::stri
   std::sort(there.begin(), there.end(), comes_before);
   // Of a part that was unpacked beside its packed form one is enough.
   std::erase_if(there, [&](const fs::path& part) {
-    return part.extension() == ".zstd" && std::find(there.begin(), there.end(), fs::path{part}.replace_extension()) != there.end();
+    return part.extension() == ".zstd" &&
+           std::find(there.begin(), there.end(), fs::path{part}.replace_extension()) != there.end();
   });
   const fs::path metadata = folder / "metadata.yaml";
   if (!fs::exists(metadata, error)) return there;
@@ -59,7 +60,8 @@ std::vector<fs::path> parts_of_bag(const fs::path& folder, std::vector<std::stri
     // Some versions name the folder, too, and an unpacked part has lost its ending.
     const fs::path file = folder / fs::path{name}.filename();
     const fs::path unpacked = file.extension() == ".zstd" ? fs::path{file}.replace_extension() : file;
-    const auto found = std::find_if(there.begin(), there.end(), [&](const fs::path& part) { return part == file || part == unpacked; });
+    const auto found = std::find_if(there.begin(), there.end(),
+                                    [&](const fs::path& part) { return part == file || part == unpacked; });
     if (found != there.end())
       parts.push_back(*found);
     else

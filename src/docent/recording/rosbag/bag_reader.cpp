@@ -48,7 +48,8 @@ Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector
   for (const auto& [topic, encoding] : foreign)
     notes.push_back("messages of " + topic + " are encoded as " + encoding + ", which is not read here: left out");
   if (const auto& damage = reader->damage(); !damage.empty())
-    notes.push_back(damage.front() + (damage.size() > 1 ? ", and at " + std::to_string(damage.size() - 1) + " more places" : "") +
+    notes.push_back(damage.front() +
+                    (damage.size() > 1 ? ", and at " + std::to_string(damage.size() - 1) + " more places" : "") +
                     ": left out");
   return read;
 }
@@ -105,7 +106,8 @@ Result<void> read_bag(const fs::path& path, const Handler& handler, std::vector<
   bool wants_more = true;
   Result<void> first_fault;
   for (const fs::path& part : parts) {
-    const auto done = read_file_of_bag(part, [&](const Rosbag2Message& message) { return wants_more = handler(message); }, notes);
+    const auto done = read_file_of_bag(
+        part, [&](const Rosbag2Message& message) { return wants_more = handler(message); }, notes);
     if (!wants_more) return {};
     if (done) {
       ++read;

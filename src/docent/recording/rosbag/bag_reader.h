@@ -10,12 +10,14 @@
 
 namespace docent::recording {
 
-/// Reads a recording of ROS as ROS 2 has it: an MCAP file (zstd, LZ4; messages as CDR or as ROS 1 wrote them), a rosbag2
-/// database (also one whose messages are packed one by one), either of them packed as a whole (.zstd), a folder of such parts, or a
-/// bag of ROS 1; until `handler` returns false. Of parts that follow one another one that is torn or empty costs what it lacks.
+/// Reads a recording of ROS as ROS 2 has it: an MCAP file (zstd, LZ4; messages as CDR or as ROS 1 wrote them), a
+/// rosbag2 database (also one whose messages are packed one by one), either of them packed as a whole (.zstd), a folder
+/// of such parts, or a bag of ROS 1; until `handler` returns false. Of parts that follow one another one that is torn
+/// or empty costs what it lacks.
 /// @param notes  what was left out, and why
 /// Error: "FILE: …": unreadable, or nothing that is a recording.
-[[nodiscard]] Result<void> read_bag(const std::filesystem::path& path, const std::function<bool(const Rosbag2Message&)>& handler,
+[[nodiscard]] Result<void> read_bag(const std::filesystem::path& path,
+                                    const std::function<bool(const Rosbag2Message&)>& handler,
                                     std::vector<std::string>& notes);
 
 /// Whether read_bag is meant for it, by content and name.

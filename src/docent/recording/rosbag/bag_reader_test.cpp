@@ -31,14 +31,16 @@ class Bags : public ::testing::Test {
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
     sqlite3_exec(database,
-                 "BEGIN; CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT); INSERT INTO topics VALUES(1, '/n', 'x/msg/N');"
+                 "BEGIN; CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT); INSERT INTO topics "
+                 "VALUES(1, '/n', 'x/msg/N');"
                  "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);",
                  nullptr, nullptr, nullptr);
     for (int i = from; i < from + count; ++i) {
       std::string data = std::to_string(i) + std::string(200, 'x');
       if (is_packed) data = packed(data);
       sqlite3_stmt* statement = nullptr;
-      sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)", -1, &statement, nullptr);
+      sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(1, ?, ?)", -1, &statement,
+                         nullptr);
       sqlite3_bind_int64(statement, 1, i);
       sqlite3_bind_blob(statement, 2, data.data(), static_cast<int>(data.size()), SQLITE_TRANSIENT);
       EXPECT_EQ(sqlite3_step(statement), SQLITE_DONE);
@@ -52,7 +54,8 @@ class Bags : public ::testing::Test {
     const auto channel = *writer->add_channel({"/n", "x/msg/N", "ros2msg", "x", "cdr", {}});
     for (int i = from; i < from + count; ++i) {
       const std::string data = std::to_string(i) + "x";
-      ASSERT_TRUE(writer->write(channel, Time{i}, Time{i}, {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()}));
+      ASSERT_TRUE(
+          writer->write(channel, Time{i}, Time{i}, {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()}));
     }
     ASSERT_TRUE(writer->close());
   }
@@ -85,7 +88,9 @@ TEST_F(Bags, BothCompressionsOfRosbag2) {
   ASSERT_TRUE(write_file_atomically(folder_ / "b_0.db3.zstd", packed(*read_file(folder_ / "b_0.db3"))));
   EXPECT_EQ(read(folder_), numbers(5, 30)) << "not twice";
   fs::remove(folder_ / "b_0.db3");
-  ASSERT_TRUE(write_file_atomically(folder_ / "metadata.yaml", "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [b_0.db3.zstd]\n  compression_format: zstd\n  compression_mode: FILE\n"));
+  ASSERT_TRUE(write_file_atomically(folder_ / "metadata.yaml",
+                                    "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: "
+                                    "[b_0.db3.zstd]\n  compression_format: zstd\n  compression_mode: FILE\n"));
   EXPECT_EQ(read(folder_), numbers(5, 30));
   EXPECT_TRUE(notes_.empty());
   EXPECT_EQ(read(folder_ / "b_0.db3.zstd"), numbers(5, 30));
@@ -95,7 +100,9 @@ TEST_F(Bags, PartsInTheOrderOfTheMetadata) {
   write_mcap(folder_ / "late.mcap", 10, 10);
   write_mcap(folder_ / "soon.mcap", 0, 10);
   write_mcap(folder_ / "zz.mcap", 20, 5);
-  ASSERT_TRUE(write_file_atomically(folder_ / "metadata.yaml", "rosbag2_bagfile_information:\n  relative_file_paths:\n    - bag/soon.mcap\n    - late.mcap\n    - gone.mcap\n"));
+  ASSERT_TRUE(write_file_atomically(
+      folder_ / "metadata.yaml",
+      "rosbag2_bagfile_information:\n  relative_file_paths:\n    - bag/soon.mcap\n    - late.mcap\n    - gone.mcap\n"));
   EXPECT_EQ(read(folder_), numbers(0, 25));
   ASSERT_EQ(notes_.size(), 2U);
   EXPECT_NE(notes_[0].find("gone.mcap"), std::string::npos);

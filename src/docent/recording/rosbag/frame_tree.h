@@ -11,7 +11,7 @@ namespace docent::recording {
 
 /// Where a sensor is on its robot.
 struct Mount {
-  Pose2 base_from_sensor;         ///< [m, rad]
+  Pose2 base_from_sensor;  ///< [m, rad]
   bool is_upside_down = false;
 };
 
@@ -21,8 +21,8 @@ class FrameTree {
  public:
   void add_static(const geometry_msgs::TransformStamped& transform);
   void add_moving(const geometry_msgs::TransformStamped& transform);
-  /// From the robot's base, which is `base` or what is usually called so, to the frame. nullopt: nobody says it, or it lies
-  /// far off any robot.
+  /// From the robot's base, which is `base` or what is usually called so, to the frame. nullopt: nobody says it, or it
+  /// lies far off any robot.
   [[nodiscard]] std::optional<Mount> mount_of(const std::string& frame, const std::string& base) const;
 
  private:

@@ -135,7 +135,8 @@ class Ros1Bag {
     const ConvertedMessage message = converted_from_ros1(connection->second.type, data);
     if (message.type == nullptr) return;
     const auto time = number_of<std::uint64_t>(fields, "time");  // seconds, then nanoseconds
-    const auto seconds = static_cast<std::int64_t>(time & 0xffffffffU), nanoseconds = static_cast<std::int64_t>(time >> 32U);
+    const auto seconds = static_cast<std::int64_t>(time & 0xffffffffU),
+               nanoseconds = static_cast<std::int64_t>(time >> 32U);
     const std::string type = message.type;
     wants_more_ = handler_({connection->second.topic, type, Time{seconds * 1'000'000'000 + nanoseconds}, message.data});
   }

@@ -41,20 +41,25 @@ std::string connection(std::uint32_t id, const std::string& topic, const std::st
                 field("topic", topic) + field("type", type) + field("md5sum", "*") + field("message_definition", "x"));
 }
 std::string message(std::uint32_t id, std::uint32_t seconds, const std::string& data) {
-  return record(field("op", "\x02") + field("conn", raw(id)) + field("time", raw(seconds) + raw(std::uint32_t{500'000'000})), data);
+  return record(
+      field("op", "\x02") + field("conn", raw(id)) + field("time", raw(seconds) + raw(std::uint32_t{500'000'000})),
+      data);
 }
 std::string chunk(const std::string& compression, const std::string& records) {
   std::string packed = records;
   if (compression == "bz2") {
     packed.resize(records.size() + 1000);
     auto size = static_cast<unsigned int>(packed.size());
-    BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(records.data()), static_cast<unsigned int>(records.size()), 9, 0, 0);
+    BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(records.data()),
+                             static_cast<unsigned int>(records.size()), 9, 0, 0);
     packed.resize(size);
   } else if (compression == "lz4") {
     packed.resize(LZ4F_compressFrameBound(records.size(), nullptr));
     packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), records.data(), records.size(), nullptr));
   }
-  return record(field("op", "\x05") + field("compression", compression) + field("size", raw(static_cast<std::uint32_t>(records.size()))), packed);
+  return record(field("op", "\x05") + field("compression", compression) +
+                    field("size", raw(static_cast<std::uint32_t>(records.size()))),
+                packed);
 }
 std::string head(std::uint32_t sequence, std::uint32_t seconds, const std::string& frame) {
   return Packed{}.number(sequence).number(seconds).number(std::uint32_t{250'000'000}).text(frame).bytes;
@@ -82,9 +87,14 @@ class Ros1Bags : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
   std::string drive(const std::string& compression) {
-    std::string records = connection(3, "scan", "sensor_msgs/LaserScan") + connection(4, "/odom", "nav_msgs/Odometry") + connection(5, "/rosout", "rosgraph_msgs/Log");
-    for (std::uint32_t i = 0; i < 20; ++i) records += message(4, 100 + i, odometry(100 + i, 0.1 * i)) + message(5, 100 + i, "abc") + message(3, 100 + i, scan(100 + i));
-    return "#ROSBAG V2.0\n" + record(field("op", "\x03") + field("index_pos", raw(std::uint64_t{0})), std::string(100, ' ')) + chunk(compression, records);
+    std::string records = connection(3, "scan", "sensor_msgs/LaserScan") + connection(4, "/odom", "nav_msgs/Odometry") +
+                          connection(5, "/rosout", "rosgraph_msgs/Log");
+    for (std::uint32_t i = 0; i < 20; ++i)
+      records += message(4, 100 + i, odometry(100 + i, 0.1 * i)) + message(5, 100 + i, "abc") +
+                 message(3, 100 + i, scan(100 + i));
+    return "#ROSBAG V2.0\n" +
+           record(field("op", "\x03") + field("index_pos", raw(std::uint64_t{0})), std::string(100, ' ')) +
+           chunk(compression, records);
   }
   struct Seen {
     int scans = 0, readings = 0;
@@ -99,12 +109,14 @@ class Ros1Bags : public ::testing::Test {
           EXPECT_NEAR(to_seconds(message.time), 100.5 + seen.scans, 1e-9);
           if (message.type == sensor_msgs::LaserScan::kType) {
             const auto scan = decode_cdr<sensor_msgs::LaserScan>(message.data);
-            EXPECT_TRUE(scan && scan->ranges.size() == 5 && scan->ranges[4] == 2.5F && scan->header.frame_id == "laser" && scan->range_max == 10.0F);
+            EXPECT_TRUE(scan && scan->ranges.size() == 5 && scan->ranges[4] == 2.5F &&
+                        scan->header.frame_id == "laser" && scan->range_max == 10.0F);
             EXPECT_EQ(message.topic, "/scan");
             ++seen.scans;
           } else {
             const auto odometry = decode_cdr<nav_msgs::Odometry>(message.data);
-            EXPECT_TRUE(odometry && odometry->child_frame_id == "base_link" && std::abs(odometry->pose.pose.position.x - 0.1 * seen.readings) < 1e-9);
+            EXPECT_TRUE(odometry && odometry->child_frame_id == "base_link" &&
+                        std::abs(odometry->pose.pose.position.x - 0.1 * seen.readings) < 1e-9);
             ++seen.readings;
           }
           return true;
@@ -113,7 +125,8 @@ class Ros1Bags : public ::testing::Test {
     EXPECT_TRUE(done) << done.error().message;
     return seen;
   }
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("docent_ros1_bag_" + std::to_string(getpid()) + ".bag");
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("docent_ros1_bag_" + std::to_string(getpid()) + ".bag");
 };
 
 TEST_F(Ros1Bags, AllCompressionsAreRead) {
@@ -136,14 +149,16 @@ TEST_F(Ros1Bags, WhatIsTornCostsWhatItLacks) {
   damaged[damaged.size() / 3] ^= 0x55;
   ASSERT_TRUE(write_file_atomically(path_, damaged));
   std::vector<std::string> notes;
-  EXPECT_TRUE(read_ros1_bag(path_, [](const Rosbag2Message&) { return true; }, notes));
+  EXPECT_TRUE(read_ros1_bag(
+      path_, [](const Rosbag2Message&) { return true; }, notes));
   EXPECT_FALSE(notes.empty());
 }
 
 TEST_F(Ros1Bags, OtherFormatsAreNamed) {
   ASSERT_TRUE(write_file_atomically(path_, "#ROSBAG V1.2\nabc"));
   std::vector<std::string> notes;
-  const auto read = read_ros1_bag(path_, [](const Rosbag2Message&) { return true; }, notes);
+  const auto read = read_ros1_bag(
+      path_, [](const Rosbag2Message&) { return true; }, notes);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("another format"), std::string::npos);
 }

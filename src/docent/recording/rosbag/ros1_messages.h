@@ -12,8 +12,8 @@
 
 namespace docent::recording {
 
-/// Reads a message as ROS 1 wrote it: little endian, packed without gaps, texts without an end, and a number before each
-/// header's stamp. The messages that matter here have the same fields in ROS 1 and ROS 2.
+/// Reads a message as ROS 1 wrote it: little endian, packed without gaps, texts without an end, and a number before
+/// each header's stamp. The messages that matter here have the same fields in ROS 1 and ROS 2.
 class Ros1Reader {
  public:
   explicit Ros1Reader(std::span<const std::uint8_t> bytes) : rest_{bytes} {}

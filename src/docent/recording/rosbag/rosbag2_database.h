@@ -19,9 +19,8 @@ struct Rosbag2Message {
   std::span<const std::uint8_t> data;  ///< CDR
 };
 
-/// Reads the SQLite file (.db3) of a rosbag2 folder in the order of its times until `handler` returns false. Messages that are
-/// packed one by one (zstd) are unpacked.
-/// Error: "FILE: …": unreadable, or no such database.
+/// Reads the SQLite file (.db3) of a rosbag2 folder in the order of its times until `handler` returns false. Messages
+/// that are packed one by one (zstd) are unpacked. Error: "FILE: …": unreadable, or no such database.
 [[nodiscard]] Result<void> read_rosbag2_database(const std::filesystem::path& path,
                                                  const std::function<bool(const Rosbag2Message&)>& handler);
 

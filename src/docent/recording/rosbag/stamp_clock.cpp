@@ -6,9 +6,10 @@
 namespace docent::recording {
 namespace {
 
-constexpr Duration kSet = std::chrono::seconds{10};              ///< no line and no disk is so slow
-constexpr std::size_t kStands = 5;                               ///< equal stamps in succession
-constexpr Duration kStandsFor = std::chrono::milliseconds{200};  ///< of the file's time from the first to the last of them
+constexpr Duration kSet = std::chrono::seconds{10};  ///< no line and no disk is so slow
+constexpr std::size_t kStands = 5;                   ///< equal stamps in succession
+constexpr Duration kStandsFor =
+    std::chrono::milliseconds{200};  ///< of the file's time from the first to the last of them
 
 Duration size_of(Duration duration) { return duration < Duration{} ? -duration : duration; }
 
@@ -18,7 +19,8 @@ std::size_t let_go_on(std::vector<Time>& times, const std::vector<RecordedStamp>
   for (std::size_t from = 0, to = 0; from < stamps.size(); from = to) {
     for (to = from; to < stamps.size() && stamps[to].stamp == stamps[from].stamp;) ++to;
     if (to - from < kStands || stamps[to - 1].recorded - stamps[from].recorded < kStandsFor) continue;
-    for (std::size_t i = from; i < to; ++i) times[i] = stamps[from].stamp + (stamps[i].recorded - stamps[from].recorded);
+    for (std::size_t i = from; i < to; ++i)
+      times[i] = stamps[from].stamp + (stamps[i].recorded - stamps[from].recorded);
     moved += to - from - 1;
   }
   return moved;

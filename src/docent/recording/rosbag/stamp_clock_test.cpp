@@ -20,7 +20,8 @@ std::vector<RecordedStamp> messages(const std::function<double(int, double)>& st
 double worst(const MendedStamps& mended, double from = 0.0) {
   double most = 0.0;
   for (std::size_t i = 0; i < mended.times.size(); ++i)
-    most = std::max(most, std::abs(to_seconds(mended.times[i] - time_from_seconds(1.7e9)) - from - 0.05 * static_cast<double>(i)));
+    most = std::max(
+        most, std::abs(to_seconds(mended.times[i] - time_from_seconds(1.7e9)) - from - 0.05 * static_cast<double>(i)));
   return most;
 }
 

@@ -18,31 +18,32 @@ std::string lower_case(std::string text) {
 template <std::size_t N>
 bool holds_one_of(const std::string& topic, const std::array<std::string_view, N>& words) {
   const std::string name = lower_case(topic);
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return name.find(word) != std::string::npos; });
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return name.find(word) != std::string::npos; });
 }
 
 /// Where a robot truly is, or is in its map, is not what its wheels say.
 bool is_truth(const std::string& topic, const RecordedTopics::Odometry& odometry) {
-  constexpr std::array<std::string_view, 9> kWords{"ground_truth", "groundtruth", "ground-truth", "truth",   "/gt",
+  constexpr std::array<std::string_view, 9> kWords{"ground_truth", "groundtruth", "ground-truth", "truth",    "/gt",
                                                    "_gt",          "mocap",       "vicon",        "optitrack"};
   const std::string parent = odometry.parent.substr(odometry.parent.rfind('/') + 1);
   return holds_one_of(topic, kWords) || parent == "map" || parent == "world" || parent == "earth";
 }
 /// Made of several sensors, maybe of the very scans that are to be localized.
 bool is_fused(const std::string& topic) {
-  constexpr std::array<std::string_view, 17> kWords{"filtered", "ekf",   "ukf",  "fused", "amcl",       "slam",  "localiz",    "visual", "rtabmap",
-                                                    "icp",      "rf2o",  "gps",  "gnss",  "scan_match", "vins",  "laser_odom", "lidar_odom"};
+  constexpr std::array<std::string_view, 17> kWords{
+      "filtered", "ekf",  "ukf", "fused", "amcl",       "slam", "localiz",    "visual",    "rtabmap",
+      "icp",      "rf2o", "gps", "gnss",  "scan_match", "vins", "laser_odom", "lidar_odom"};
   return holds_one_of(topic, kWords);
 }
 /// Made of other scans.
 bool is_made_of_scans(const std::string& topic) {
-  constexpr std::array<std::string_view, 10> kWords{"filter", "merged", "multi", "throttle", "downsampl", "virtual", "crop", "safety", "relay", "converted"};
+  constexpr std::array<std::string_view, 10> kWords{"filter",  "merged", "multi",  "throttle", "downsampl",
+                                                    "virtual", "crop",   "safety", "relay",    "converted"};
   return holds_one_of(topic, kWords);
 }
 
-bool lies_in(const std::string& topic, const std::string& name_space) {
-  return topic.starts_with(name_space + "/");
-}
+bool lies_in(const std::string& topic, const std::string& name_space) { return topic.starts_with(name_space + "/"); }
 
 /// The innermost name space round the topic that has an odometry of its own; empty: the one of all.
 std::string robot_of(const std::string& topic, const RecordedTopics& recorded) {
@@ -92,8 +93,10 @@ class Choice {
     return robot.empty();
   }
   [[nodiscard]] bool has_odometry(const std::string& robot) const {
-    return std::any_of(recorded_.odometry.begin(), recorded_.odometry.end(), [&](const auto& topic) { return is_of(topic.first, robot); }) ||
-           std::any_of(recorded_.transforms.begin(), recorded_.transforms.end(), [&](const auto& tf) { return is_of(tf.first + "/tf", robot); });
+    return std::any_of(recorded_.odometry.begin(), recorded_.odometry.end(),
+                       [&](const auto& topic) { return is_of(topic.first, robot); }) ||
+           std::any_of(recorded_.transforms.begin(), recorded_.transforms.end(),
+                       [&](const auto& tf) { return is_of(tf.first + "/tf", robot); });
   }
 
   Result<void> choose_robot() {
@@ -115,14 +118,16 @@ class Choice {
         for (const std::string& topic : robot.second) scans += recorded_.scans.at(topic).count;
         return std::pair{has_odometry(robot.first), scans};
       };
-      chosen_.robot = std::max_element(robots_.begin(), robots_.end(), [&](const auto& a, const auto& b) { return weight(a) < weight(b); })->first;
+      chosen_.robot = std::max_element(robots_.begin(), robots_.end(), [&](const auto& a, const auto& b) {
+                        return weight(a) < weight(b);
+                      })->first;
     }
     if (robots_.size() > 1 && wanted_.robot.empty() && wanted_.scans.empty()) {
       std::vector<std::string> others;
       for (const auto& [name, topics] : robots_)
         if (name != chosen_.robot) others.insert(others.end(), topics.begin(), topics.end());
-      note("several robots are in it: that of " + spoken(chosen_.robot) + " is used, and left out are the scans of " + listed(others) +
-           "; --robot and --scan choose");
+      note("several robots are in it: that of " + spoken(chosen_.robot) + " is used, and left out are the scans of " +
+           listed(others) + "; --robot and --scan choose");
     }
     return {};
   }
@@ -140,14 +145,19 @@ class Choice {
     for (const std::string& topic : robots_[chosen_.robot]) by_frame[recorded_.scans.at(topic).frame].push_back(topic);
     std::vector<std::string> placed, unplaced;
     for (auto& [frame, topics] : by_frame) {
-      const auto worth = [&](const std::string& topic) { return std::tuple{is_made_of_scans(topic), -static_cast<long>(recorded_.scans.at(topic).count), topic.size(), topic}; };
+      const auto worth = [&](const std::string& topic) {
+        return std::tuple{is_made_of_scans(topic), -static_cast<long>(recorded_.scans.at(topic).count), topic.size(),
+                          topic};
+      };
       std::sort(topics.begin(), topics.end(), [&](const auto& a, const auto& b) { return worth(a) < worth(b); });
       if (topics.size() > 1)
-        note("of the scans of one scanner, '" + frame + "', those of " + topics.front() + " are used, and left out are those of " +
-             listed({topics.begin() + 1, topics.end()}) + "; --scan chooses");
+        note("of the scans of one scanner, '" + frame + "', those of " + topics.front() +
+             " are used, and left out are those of " + listed({topics.begin() + 1, topics.end()}) + "; --scan chooses");
       (recorded_.scans.at(topics.front()).has_place ? placed : unplaced).push_back(topics.front());
     }
-    const auto most = [&](const std::string& a, const std::string& b) { return recorded_.scans.at(a).count < recorded_.scans.at(b).count; };
+    const auto most = [&](const std::string& a, const std::string& b) {
+      return recorded_.scans.at(a).count < recorded_.scans.at(b).count;
+    };
     std::sort(unplaced.begin(), unplaced.end());
     if (placed.empty()) {
       const auto one = std::max_element(unplaced.begin(), unplaced.end(), most);
@@ -155,7 +165,8 @@ class Choice {
       unplaced.erase(one);
     }
     for (const std::string& topic : unplaced)
-      note("the scans of " + topic + " are left out: nothing says where '" + recorded_.scans.at(topic).frame + "' is on the robot");
+      note("the scans of " + topic + " are left out: nothing says where '" + recorded_.scans.at(topic).frame +
+           "' is on the robot");
     chosen_.scans = std::move(placed);
     std::sort(chosen_.scans.begin(), chosen_.scans.end());
     return {};
@@ -164,7 +175,8 @@ class Choice {
   Result<void> choose_odometry() {
     if (!wanted_.odometry.empty()) {
       if (!recorded_.odometry.contains(wanted_.odometry))
-        return fail("holds no odometry of " + wanted_.odometry + "; there is that of " + listed(names_of(recorded_.odometry)));
+        return fail("holds no odometry of " + wanted_.odometry + "; there is that of " +
+                    listed(names_of(recorded_.odometry)));
       chosen_.odometry = wanted_.odometry;
       return {};
     }
@@ -173,13 +185,16 @@ class Choice {
       if (!is_of(topic, chosen_.robot)) continue;
       (is_truth(topic, about) ? truth : is_fused(topic) ? fused : wheels).push_back(topic);
     }
-    const auto most = [&](const std::string& a, const std::string& b) { return recorded_.odometry.at(a).count < recorded_.odometry.at(b).count; };
+    const auto most = [&](const std::string& a, const std::string& b) {
+      return recorded_.odometry.at(a).count < recorded_.odometry.at(b).count;
+    };
     const auto transforms = std::find_if(recorded_.transforms.begin(), recorded_.transforms.end(),
                                          [&](const auto& tf) { return is_of(tf.first + "/tf", chosen_.robot); });
     std::vector<std::string> left;
     if (!wheels.empty()) {
       chosen_.odometry = *std::max_element(wheels.begin(), wheels.end(), most);
-      std::copy_if(wheels.begin(), wheels.end(), std::back_inserter(left), [&](const auto& topic) { return topic != chosen_.odometry; });
+      std::copy_if(wheels.begin(), wheels.end(), std::back_inserter(left),
+                   [&](const auto& topic) { return topic != chosen_.odometry; });
       left.insert(left.end(), fused.begin(), fused.end());
     } else if (transforms != recorded_.transforms.end()) {
       chosen_.transforms = transforms->first;
@@ -188,12 +203,13 @@ class Choice {
       left = fused;
     } else if (!fused.empty()) {
       chosen_.odometry = *std::max_element(fused.begin(), fused.end(), most);
-      note("there is no odometry of wheels: that of " + chosen_.odometry + " is taken, which seems to be made of several sensors");
+      note("there is no odometry of wheels: that of " + chosen_.odometry +
+           " is taken, which seems to be made of several sensors");
     }
     left.insert(left.end(), truth.begin(), truth.end());
     if (!left.empty())
-      note((chosen_.odometry.empty() ? "" : "the odometry of " + chosen_.odometry + " is used, and ") + ("left out is that of " + listed(left)) +
-           "; --odom chooses");
+      note((chosen_.odometry.empty() ? "" : "the odometry of " + chosen_.odometry + " is used, and ") +
+           ("left out is that of " + listed(left)) + "; --odom chooses");
     return {};
   }
 

@@ -50,21 +50,27 @@ TEST(TopicChoice, OfTwoRobotsOneIsUsedAndSaid) {
 }
 
 TEST(TopicChoice, AScannerInANameSpaceOfItsOwnIsNoRobot) {
-  const ChosenTopics choice = chosen({.scans = {{"/lidar/scan", {100, "laser", true}}}, .odometry = {{"/husky/wheels/odom", {500, "odom"}}}});
+  const ChosenTopics choice =
+      chosen({.scans = {{"/lidar/scan", {100, "laser", true}}}, .odometry = {{"/husky/wheels/odom", {500, "odom"}}}});
   EXPECT_EQ(choice.odometry, "/husky/wheels/odom");
   EXPECT_TRUE(choice.notes.empty());
 }
 
 TEST(TopicChoice, OfOneScannerTheRawScansAreTaken) {
-  const ChosenTopics choice = chosen({.scans = {{"/scan", {100, "laser", true}}, {"/scan_filtered", {120, "laser", true}}}, .odometry = {{"/odom", {9, "odom"}}}});
+  const ChosenTopics choice =
+      chosen({.scans = {{"/scan", {100, "laser", true}}, {"/scan_filtered", {120, "laser", true}}},
+              .odometry = {{"/odom", {9, "odom"}}}});
   EXPECT_EQ(choice.scans, (Names{"/scan"}));
   EXPECT_TRUE(is_noted(choice, "/scan_filtered"));
   const WantedTopics wanted{.scans = {"/scan_filtered"}};
-  EXPECT_EQ(chosen({.scans = {{"/scan", {100, "laser", true}}, {"/scan_filtered", {120, "laser", true}}}}, wanted).scans, wanted.scans);
+  EXPECT_EQ(
+      chosen({.scans = {{"/scan", {100, "laser", true}}, {"/scan_filtered", {120, "laser", true}}}}, wanted).scans,
+      wanted.scans);
 }
 
 TEST(TopicChoice, AScannerWhosePlaceNobodySaysIsLeftWhereOthersHaveOne) {
-  const ChosenTopics choice = chosen({.scans = {{"/camera/scan", {300, "camera_depth", false}}, {"/scan", {100, "laser", true}}}});
+  const ChosenTopics choice =
+      chosen({.scans = {{"/camera/scan", {300, "camera_depth", false}}, {"/scan", {100, "laser", true}}}});
   EXPECT_EQ(choice.scans, (Names{"/scan"}));
   EXPECT_TRUE(is_noted(choice, "camera_depth"));
   EXPECT_EQ(chosen({.scans = {{"/a", {10, "a", false}}, {"/b", {20, "b", false}}}}).scans, (Names{"/b"}));
@@ -72,7 +78,10 @@ TEST(TopicChoice, AScannerWhosePlaceNobodySaysIsLeftWhereOthersHaveOne) {
 
 TEST(TopicChoice, GroundTruthIsNeverOdometry) {
   RecordedTopics recorded{.scans = {{"/scan", {100, "laser", true}}},
-                          .odometry = {{"/ground_truth/state", {9000, "odom"}}, {"/odometry/filtered", {3000, "odom"}}, {"/odom", {500, "odom"}}, {"/pose_in_map", {7000, "map"}}}};
+                          .odometry = {{"/ground_truth/state", {9000, "odom"}},
+                                       {"/odometry/filtered", {3000, "odom"}},
+                                       {"/odom", {500, "odom"}},
+                                       {"/pose_in_map", {7000, "map"}}}};
   EXPECT_EQ(chosen(recorded).odometry, "/odom");
   EXPECT_TRUE(is_noted(chosen(recorded), "/odometry/filtered"));
   recorded.odometry.erase("/odom");

@@ -8,7 +8,9 @@ namespace {
 
 /// `frame`, made larger by whole cells until it holds `other`.
 GridFrame grown_to(const GridFrame& frame, const GridFrame& other) {
-  const auto cells = [&](double length) { return std::max(0, static_cast<int>(std::ceil(length / frame.resolution - 1e-6))); };
+  const auto cells = [&](double length) {
+    return std::max(0, static_cast<int>(std::ceil(length / frame.resolution - 1e-6)));
+  };
   const auto end = [](const GridFrame& of) {
     return Point2{of.origin.x + of.columns * of.resolution, of.origin.y + of.rows * of.resolution};
   };

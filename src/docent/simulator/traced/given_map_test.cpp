@@ -34,7 +34,9 @@ TEST(GivenMap, ARoomBehindANarrowGapStaysARoom) {
   ASSERT_TRUE(traced) << traced.error().message;
   const OccupancyGrid surveyed = survey(traced->plan.world, {}, Rng{3}.stream("survey")).map;
   const OccupancyGrid map = with_given_map(given, traced->frame, traced->building, surveyed);
-  const auto at = [&](const OccupancyGrid& of, int column, int row) { return of.at(of.frame.cell_at(given.frame.centre({column, row}))); };
+  const auto at = [&](const OccupancyGrid& of, int column, int row) {
+    return of.at(of.frame.cell_at(given.frame.centre({column, row})));
+  };
   EXPECT_NE(at(surveyed, 320, 130), OccupancyGrid::kFree) << "the world has no such room";
   EXPECT_EQ(at(map, 320, 130), OccupancyGrid::kFree);
   EXPECT_EQ(at(map, 291, 126), OccupancyGrid::kFree) << "nothing stands in the gap";

@@ -16,8 +16,8 @@ namespace docent::simulator {
 
 struct TracedMuseum {
   MuseumPlan plan;
-  GridFrame frame;             ///< of the cells below
-  std::vector<bool> building;  ///< floor that a robot may reach, and what stands on it
+  GridFrame frame;                  ///< of the cells below
+  std::vector<bool> building;       ///< floor that a robot may reach, and what stands on it
   std::vector<PedestrianFit> fits;  ///< one a recording; what they keep is in the plan's world
   std::size_t carried_away = 0;     ///< small things of the map that stood in the way of recorded people
 };
