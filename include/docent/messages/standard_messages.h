@@ -118,6 +118,16 @@ struct Twist {
     v("angular", m.angular);
   }
 };
+struct TwistStamped {
+  static constexpr const char* kType = "geometry_msgs/msg/TwistStamped";
+  std_msgs::Header header;
+  Twist twist;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("twist", m.twist);
+  }
+};
 struct TwistWithCovariance {
   static constexpr const char* kType = "geometry_msgs/msg/TwistWithCovariance";
   Twist twist;

@@ -32,6 +32,7 @@ struct DdsOptions {
   std::string name_prefix;  ///< several robots in one domain: "minerva" makes rt/minerva/scan_front
   /// Faults worth a line: a peer with another quality of service, damaged samples. Called on the bus's thread.
   std::function<void(const std::string&)> warn;
+  bool stamped_commands = false;  ///< cmd_vel is a TwistStamped on the wire, else a Twist
 };
 
 /// The DDS body of the bus: Cyclone DDS, seen by ROS 2 as an ordinary robot (architecture 4). Loopback only, unless
@@ -123,6 +124,8 @@ class DdsBus final : public Bus {
   DdsBus(DdsOptions options, std::int32_t participant, std::int32_t own_domain);
   DdsTopic find_or_create(const TopicInfo& info);
   [[nodiscard]] std::string wire_name(const TopicInfo& info) const;
+  /// How the topic's messages look on the wire.
+  [[nodiscard]] const TypeSupport* wire_support(const TopicInfo& topic) const;
   [[nodiscard]] int foreign_endpoints(const std::string& wire_name);
   void write(Writer& writer, const std::shared_ptr<const void>& message);
   void retry_unsent();

@@ -61,6 +61,8 @@ struct RobotBody {
   double turn_acceleration = 1.5;            ///< [rad/s2] of the base when it begins or ends a turn
   double latency = 0.15;                     ///< [s] from a command to the wheels
   double watchdog = 0.3;                     ///< [s] without a command, then the base stops
+  bool stamped_commands = false;             ///< it wants cmd_vel as a TwistStamped, as drivers of ROS 2 Jazzy do by
+                                             ///< default, else as a Twist
   static constexpr std::array<std::string_view, 4> kScannerNames{"front", "rear", "left", "right"};
   /// What none of them sees counts as unknown: the robot drives there only when it has looked.
   std::vector<Scanner> scanners{{}, {"rear", "laser_rear", 0.0, 0.0, 180.0, 180.0}};
@@ -83,6 +85,7 @@ struct RobotBody {
     v("turn_acceleration", turn_acceleration);
     v("latency", latency);
     v("watchdog", watchdog);
+    v("stamped_commands", stamped_commands);
     v("scanners", scanners);
     v("posts", posts);
     v("sonars", sonars);

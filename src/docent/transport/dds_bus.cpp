@@ -8,7 +8,9 @@
 
 #include "docent/base/check.h"
 #include "docent/messages/schema.h"
+#include "docent/messages/topics.h"
 #include "docent/transport/cdr_sertype.h"
+#include "docent/transport/stamped_twist.h"
 
 namespace docent::transport {
 namespace {
@@ -203,17 +205,23 @@ std::string DdsBus::wire_name(const TopicInfo& info) const {
   return "rt/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
 }
 
+const TypeSupport* DdsBus::wire_support(const TopicInfo& info) const {
+  const bool is_command = std::string_view{info.name} == topics::kCommandVelocity.name;
+  return options_.stamped_commands && is_command ? &stamped_twist_support() : info.type;
+}
+
 DdsBus::DdsTopic DdsBus::find_or_create(const TopicInfo& info) {
+  const TypeSupport* support = wire_support(info);
   const auto known = topics_.find(info.name);
   if (known != topics_.end()) {
-    DOCENT_CHECK(known->second.support == info.type);
+    DOCENT_CHECK(known->second.support == support);
     return known->second;
   }
-  ddsi_sertype* type = make_cdr_sertype(dds_type_name(info.type->name));
+  ddsi_sertype* type = make_cdr_sertype(dds_type_name(support->name));
   const dds_entity_t entity =
       dds_create_topic_sertype(participant_, wire_name(info).c_str(), &type, nullptr, nullptr, nullptr);
   DOCENT_CHECK(entity > 0);
-  return topics_.emplace(info.name, DdsTopic{entity, type, info.type}).first->second;
+  return topics_.emplace(info.name, DdsTopic{entity, type, support}).first->second;
 }
 
 int DdsBus::add_publisher(const TopicInfo& info) {
@@ -276,7 +284,7 @@ void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
   auto& subscription = *subscriptions_.emplace_back(std::make_unique<Subscription>());
   subscription.bus = this;
   subscription.name = info.name;
-  subscription.support = info.type;
+  subscription.support = topic.support;
   subscription.handler = std::move(handler);
   subscription.max_age = seconds(info.max_age_s);
   dds_listener_t* listener = dds_create_listener(&subscription);

@@ -117,6 +117,29 @@ TEST(DdsBus, OtherProgramsThatPublishOnATopicAreCounted) {
   EXPECT_TRUE(run_until(*bus, [&] { return bus->other_writers(topic) == 1; })) << "of another type";
 }
 
+TEST(DdsBus, CommandsMayBeStampedOnTheWire) {
+  const auto stamped_bus = [] {
+    DdsOptions options{kDomain, "", {}};
+    options.stamped_commands = true;
+    return std::move(*DdsBus::create(std::move(options)));
+  };
+  const auto robot = stamped_bus(), plain = bus_in(kDomain);
+  std::vector<double> heard;
+  int heard_plain = 0;
+  const auto base = stamped_bus();
+  base->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity,
+                                        [&](const auto& twist) { heard.push_back(twist.linear.x); });
+  plain->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [&](const auto&) { ++heard_plain; });
+  robot->every(20ms, [out = robot->publisher(topics::kCommandVelocity)] { out.publish({{0.4, 0.0, 0.0}, {}}); });
+  const std::jthread runs{[&](const std::stop_token& stop) { robot->run(stop); }};
+  ASSERT_TRUE(run_until(*base, [&] { return heard.size() >= 5; }));
+  EXPECT_EQ(heard.front(), 0.4);
+  bool is_over = false;
+  plain->after(300ms, [&] { is_over = true; });
+  ASSERT_TRUE(run_until(*plain, [&] { return is_over; }));
+  EXPECT_EQ(heard_plain, 0);
+}
+
 TEST(DdsBus, WhatCannotBeIsRefusedAndCounted) {
   const auto bus = bus_in(kDomain);
   std::vector<double> speeds;

@@ -34,9 +34,10 @@ std::string module_names() {
 }
 
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
-  return value_or_fail(transport::DdsBus::create({domain, deployment.name, [module](const std::string& text) {
-                                                    log_to_stderr(LogLevel::warning, module, text);
-                                                  }}));
+  transport::DdsOptions options{domain, deployment.name, {}};
+  options.warn = [module](const std::string& text) { log_to_stderr(LogLevel::warning, module, text); };
+  options.stamped_commands = value_or_fail(deployment.load_config(), kExitBadConfiguration).body().stamped_commands;
+  return value_or_fail(transport::DdsBus::create(std::move(options)));
 }
 
 void run(const RunOptions& options, RobotMaker& maker) {

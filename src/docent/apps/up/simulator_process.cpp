@@ -114,7 +114,10 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   if (!simulation) return tl::unexpected<Error>(simulation.error());
   const auto warn = [](const std::string& text) { log_to_stderr(LogLevel::warning, kSimulatorProcess, text); };
   block_end_signals();
-  auto robot_bus = transport::DdsBus::create({deployment.domain, deployment.name, warn});
+  const auto config = deployment.load_config();
+  if (!config) return tl::unexpected<Error>(config.error());
+  auto robot_bus =
+      transport::DdsBus::create({deployment.domain, deployment.name, warn, config->body().stamped_commands});
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
   auto truth_bus = transport::DdsBus::create({transport::truth_domain(deployment.domain), deployment.name, warn});
   if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
