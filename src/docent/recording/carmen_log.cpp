@@ -11,6 +11,7 @@
 #include "docent/base/files.h"
 #include "docent/messages/message_fitness.h"
 #include "docent/recording/log_odometry.h"
+#include "docent/recording/rosbag/stamp_clock.h"
 
 namespace docent::recording {
 namespace {
@@ -78,7 +79,7 @@ class Words {
   std::string_view rest_;
 };
 
-/// The two clocks at the end of a line [s]; a missing one is not a number.
+/// The two clocks at the end of a line [s]; a missing one, or one beyond the year 2106, is not a number.
 struct Clocks {
   double message = std::numeric_limits<double>::quiet_NaN();
   double logger = std::numeric_limits<double>::quiet_NaN();
@@ -87,7 +88,7 @@ struct Clocks {
 Clocks read_clocks(Words& words) {
   Clocks clocks;
   clocks.message = words.number("the time");
-  if (std::abs(clocks.message) > kLastSecond) throw LineFault{"the time lies beyond the year 2106"};
+  if (std::abs(clocks.message) > kLastSecond) clocks.message = std::numeric_limits<double>::quiet_NaN();
   const std::string_view host = words.word();
   if (host.empty()) return clocks;
   const std::string_view logger = words.word();
@@ -195,15 +196,39 @@ class Collector {
     log_.scans.push_back(std::move(scan));
   }
 
-  /// True when the clock moves: at least half of the scans have a time of their own.
+  /// True when the clock moves: at least half of the scans have a time of their own, and nine of ten have any.
   [[nodiscard]] bool moves(double Clocks::*clock) const {
     std::vector<double> times;
     for (const Clocks& clocks : scan_clocks_)
       if (std::isfinite(clocks.*clock)) times.push_back(clocks.*clock);
-    if (times.size() != scan_clocks_.size()) return false;
+    const std::size_t scans = scan_clocks_.size();
+    if (times.empty() || 10 * times.size() < 9 * scans) return false;
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
-    return times.size() == 1 ? scan_clocks_.size() == 1 : 2 * times.size() > scan_clocks_.size();
+    return times.size() == 1 ? scans == 1 : 2 * times.size() > scans;
+  }
+  /// The scans' times by that clock: where it is missing, as the scan before; where it was set, by the logger's.
+  std::vector<Time> times_of_scans(double Clocks::*clock) {
+    const bool has_logger = clock == &Clocks::message && moves(&Clocks::logger);
+    std::vector<RecordedStamp> stamps;
+    std::size_t missing = 0;
+    double last = 0.0, last_logger = 0.0;
+    for (const Clocks& clocks : scan_clocks_)  // before the first: as the first
+      if (stamps.empty() && last == 0.0 && std::isfinite(clocks.*clock)) last = clocks.*clock;
+    for (const Clocks& clocks : scan_clocks_) {
+      missing += std::isfinite(clocks.*clock) ? 0 : 1;
+      if (std::isfinite(clocks.*clock)) last = clocks.*clock;
+      if (std::isfinite(clocks.logger)) last_logger = clocks.logger;
+      stamps.push_back({time_from_seconds(last), time_from_seconds(has_logger ? last_logger : 0.0)});
+    }
+    if (missing > 0)
+      note(std::to_string(missing) +
+           " scans have no time, or one beyond the year 2106: that of the scan before is taken");
+    MendedStamps mended = mended_stamps(stamps);
+    if (mended.mended > 0)
+      note("the clock of the scans jumps or stands: " + std::to_string(mended.mended) + " of " +
+           std::to_string(stamps.size()) + " times are moved by the logger's");
+    return std::move(mended.times);
   }
   void settle_times() {
     if (moves(&Clocks::message)) return take_clock(&Clocks::message);
@@ -246,17 +271,18 @@ class Collector {
   void take_clock(double Clocks::*clock) {
     std::size_t raised = 0;
     RisingStamps front, rear, readings;
-    Time last = time_from_seconds(scan_clocks_.front().*clock);
+    const std::vector<Time> times = times_of_scans(clock);
+    Time last = times.front();
     for (std::size_t i = 0; i < log_.scans.size(); ++i) {
       RisingStamps& stamps = log_.scans[i].rear ? rear : front;
-      const Time time = stamps.follow(time_from_seconds(scan_clocks_[i].*clock));
+      const Time time = stamps.follow(times[i]);
       raised += time < last ? 1 : 0;
       last = log_.scans[i].time = std::max(last, time);
     }
     if (front.set_back() + rear.set_back() > 0)
       note("the clock of the scans was set back: later stamps are moved as far");
     if (raised > 0) note(std::to_string(raised) + " scans had a time before the scan before them");
-    last = log_.odometry.empty() ? Time{} : time_from_seconds(odometry_clocks_.front().message);
+    last = times.front();
     for (std::size_t i = 0; i < log_.odometry.size(); ++i) {
       const double seconds_logged = odometry_clocks_[i].*clock;
       if (std::isfinite(seconds_logged)) {

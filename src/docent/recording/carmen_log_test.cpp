@@ -212,7 +212,6 @@ TEST(CarmenLog, FaultsNameFileAndLine) {
       {"FLASER -1 0 0 0 0 0 0 1 host 1\n", "log:1: "},
       {"FLASER 1000000000 0 0 0 0 0 0 1 host 1\n", "log:1: "},
       {"FLASER 1 2.0 1e11 0 0 0 0 0 1 host 1\n", "log:1: the laser's pose lies nowhere on Earth"},
-      {"FLASER 1 2.0 0 0 0 0 0 0 1e11 host 1\n", "log:1: the time lies beyond the year 2106"},
       {"ROBOTLASER1 0 -1.5 3 0.9 30 0.1 0 20 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0 0 0 0 0 0 0 0 0 0 0 0 1 host "
        "1\n",
        "log:1: the beams go more than once round"},
@@ -274,6 +273,33 @@ TEST(CarmenLog, ReadsRealLogs) {
     for (const LoggedScan& scan : log->scans)
       for (const float range : scan.ranges) EXPECT_FALSE(std::isfinite(range) && range > 80.0F);
   }
+}
+
+/// One scan a second; `time` sets the message's clock [s].
+Result<LaserLog> log_by(const std::function<double(int)>& time) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "docent_carmen_clock.log";
+  std::string text;
+  for (int i = 0; i < 60; ++i)
+    text += "FLASER 3 1 2 3 0 0 0 0 0 0 " + std::to_string(time(i)) + " host " + std::to_string(i) + "\n";
+  EXPECT_TRUE(write_file_atomically(path, text));
+  auto log = read_carmen_log(path);
+  std::filesystem::remove(path);
+  return log;
+}
+
+TEST(CarmenLogClocks, AnOddTimeIsANoteAndNoRefusal) {
+  const auto lone = log_by([](int i) { return i == 30 ? 1e11 : 1000.0 + i; });
+  ASSERT_TRUE(lone) << lone.error().message;
+  EXPECT_EQ(lone->scans.size(), 60U);
+  EXPECT_NEAR(to_seconds(lone->scans[59].time - lone->scans[0].time), 59.0, 1e-6);
+  EXPECT_FALSE(lone->times_are_invented);
+  ASSERT_FALSE(lone->notes.empty());
+  const auto set = log_by([](int i) { return i < 10 ? 5.0 + i : 1e9 + i; });
+  ASSERT_TRUE(set) << set.error().message;
+  for (int i = 0; i < 60; ++i) EXPECT_NEAR(to_seconds(set->scans[static_cast<std::size_t>(i)].time), 1e9 + i, 1e-3);
+  const auto stands = log_by([](int i) { return i >= 20 && i < 40 ? 1020.0 : 1000.0 + i; });
+  ASSERT_TRUE(stands);
+  EXPECT_NEAR(to_seconds(stands->scans[30].time), 1030.0, 1e-3);
 }
 
 }  // namespace
