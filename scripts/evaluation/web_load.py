@@ -11,7 +11,7 @@ from evaluation.tables import Verdict, print_table
 
 OWED, AIM = 5000, 10000  # viewers
 LATEST = 100.0  # [ms] at 99 %, from the moment when the server's process has a value to its arrival
-MOST_KB = 10.0  # of memory a viewer: what the process grows by, and the kernel's buffers
+MOST_KB = 10.0  # of memory a viewer: what the process has more of its own, and the kernel's buffers
 STALLED, SLOW = 100, 50  # who never read; who read 200 bytes a second
 OFTEN = 3.2  # values a second that each viewer gets at least: one every 0.3 s is 3.33
 LADDER = {"docent": [1000, 2500, OWED, AIM, 14000], "tornado": [500, 1000, 2500, OWED]}
@@ -68,11 +68,11 @@ def protocol(simulations, options):
         alone = one(root, "docent", some, False, seconds)
         rows.append(alone)
     print(f"\n## Viewers with a pose every 0.3 s, {seconds:g} s each, server and viewers on a core each\n")
-    print_table(["server", "viewers", "stalled, slow", "values/s each", "bytes", "median ms", "p99 ms", "worst ms", "kB RSS", "kB sockets", "of a core"],
+    print_table(["server", "viewers", "stalled, slow", "values/s each", "bytes", "median ms", "p99 ms", "worst ms", "kB own", "kB sockets", "of a core"],
                 [[r["server"], r["viewers"], f"{STALLED}, {SLOW}" if r["bad"] else "none", f"{r['values_per_viewer_s']:.2f}", f"{r['bytes']:.0f}",
                   f"{r['median_ms']:.1f}", f"{r['p99_ms']:.1f}", f"{r['worst_ms']:.1f}", f"{r['resident_kb']:.1f}", f"{r['socket_kb']:.1f}",
                   f"{r['core']:.2f}"] for r in rows])
-    print("\nkB: of memory a viewer, the process's own and the kernel's buffers of both ends.\n")
+    print("\nkB: of memory a viewer, the process's own (without pages of its program) and the kernel's buffers of both ends.\n")
     verdict = Verdict()
     of = {name: [row for row in rows if row["server"] == name and row["bad"]] for name in ladder}
     best = {name: max((row["viewers"] for row in of[name] if holds(row)), default=0) for name in ladder}

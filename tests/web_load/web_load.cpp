@@ -45,7 +45,8 @@ long socket_kb() {
   }
   return 0;
 }
-long resident_kb(int process) { return number_in("/proc/" + std::to_string(process) + "/status", "VmRSS:"); }
+/// What the process has of its own; pages of its program, which the first viewer touches, are no viewer's.
+long resident_kb(int process) { return number_in("/proc/" + std::to_string(process) + "/status", "RssAnon:"); }
 /// [s] that the process has computed.
 double busy_s(int process) {
   std::ifstream file{"/proc/" + std::to_string(process) + "/stat"};
