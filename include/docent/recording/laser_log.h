@@ -67,7 +67,7 @@ struct LaserLog {
 /// How a recording is read.
 struct LaserLogOptions {
   bool with_sonars = false;  ///< also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none
-  WantedTopics topics;       ///< of a ROS recording
+  WantedTopics topics = {};  ///< of a ROS recording
 };
 
 /// Reads what `--log` names, by its content: a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include "docent/base/files.h"
@@ -77,6 +80,7 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
   constexpr double kFinest = 1e-4;   // [m]
   constexpr double kFarthest = 1e7;  // [m] as far as one coordinate goes on Earth
   Meaning meaning{.resolution = yaml.resolution,
+                  .origin = {},
                   .occupied_thresh = yaml.occupied_thresh,
                   .free_thresh = yaml.free_thresh,
                   .mode = lower_case(yaml.mode)};
@@ -92,7 +96,7 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
   }
   const auto yaw = yaw_of(yaml.origin[2], notes);
   if (!yaw) return fault("origin", yaw.error().message);
-  meaning.origin.theta = *yaw;
+  meaning.origin.theta = Angle::radians(*yaw);
   const std::string negate = lower_case(yaml.negate);
   if (negate != "0" && negate != "1" && negate != "false" && negate != "true")
     return fault("negate", "negate must be 0 or 1");
@@ -206,16 +210,15 @@ Result<OccupancyGrid> grid_of(const MapImage& image, const std::vector<KnownPart
 
 /// Lays the map, whose frame begins at the image's corner, to where the file says.
 void place(OccupancyGrid& map, const MapImage& image, const Pose2& origin, std::vector<std::string>& notes) {
-  const double reach =
-      map.frame.resolution * std::hypot(static_cast<double>(image.width()), static_cast<double>(image.height()));
-  const bool is_turned = std::abs(origin.theta) * reach > 0.5 * map.frame.resolution;  // else no cell is another one
-  if (is_turned) {
-    map = turned(map, origin.theta);
-    notes.push_back("turned by " +
-                    std::to_string(std::lround(origin.theta * 1800.0 / std::numbers::pi) / 10.0).substr(0, 6) +
-                    " degrees, as the origin's yaw says");
+  const double reach = std::hypot(static_cast<double>(image.width()), static_cast<double>(image.height()));  // [pixels]
+  const double angle = origin.theta.radians();
+  if (std::abs(angle) * reach > 0.5) {  // else no cell becomes another one
+    map = turned(map, angle);
+    std::array<char, 80> text{};
+    std::snprintf(text.data(), text.size(), "turned by %.3g degrees, as the origin's yaw says", origin.theta.degrees());
+    notes.emplace_back(text.data());
   }
-  map.frame.origin = map.frame.origin + Point2{origin.x, origin.y};
+  map.frame.origin = map.frame.origin + origin.position();
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace docent::recording {
 
 /// What somebody wants of a recording; what is empty is chosen.
 struct WantedTopics {
-  std::vector<std::string> scans;  ///< "/scan"
-  std::string odometry;            ///< "/odom"
-  std::string robot;               ///< name space, "/robot1"; "/" the one without
+  std::vector<std::string> scans = {};  ///< "/scan"
+  std::string odometry = {};            ///< "/odom"
+  std::string robot = {};               ///< name space, "/robot1"; "/" the one without
 };
 
 /// What a recording holds, as far as a choice needs it.
@@ -27,14 +27,15 @@ struct RecordedTopics {
     std::size_t count = 0;
     std::string parent;  ///< "odom"
   };
-  std::map<std::string, Scans> scans;             ///< by topic
-  std::map<std::string, Odometry> odometry;       ///< by topic
-  std::map<std::string, std::size_t> transforms;  ///< odometry told by transforms: readings, by the topic's name space
+  std::map<std::string, Scans> scans = {};        ///< by topic
+  std::map<std::string, Odometry> odometry = {};  ///< by topic
+  std::map<std::string, std::size_t> transforms =
+      {};  ///< odometry told by transforms: readings, by the topic's name space
 };
 
 /// What is used of it.
 struct ChosenTopics {
-  std::string robot;               ///< name space; empty: there is none
+  std::string robot = {};          ///< name space; empty: there is none
   std::vector<std::string> scans;  ///< topics
   std::string odometry;            ///< topic; empty: none
   std::string transforms;          ///< name space of the transforms that tell odometry, where no topic does

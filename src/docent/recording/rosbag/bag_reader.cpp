@@ -34,7 +34,9 @@ Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector
   auto reader = McapReader::open(path);
   if (!reader) return tl::unexpected<Error>(reader.error());
   std::map<std::string, std::string> foreign;  // topic, encoding
-  const auto read = reader->read({.skip_damaged = true}, [&](const McapMessage& message) {
+  McapReader::Selection all;
+  all.skip_damaged = true;
+  const auto read = reader->read(all, [&](const McapMessage& message) {
     const McapChannel& channel = message.channel;
     if (channel.encoding == "cdr" || channel.encoding.empty())
       return handler({channel.topic, channel.type, message.log_time, message.data});
