@@ -1,6 +1,7 @@
 #include "docent/telepresence/store/store_queue.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace docent::telepresence {
@@ -16,8 +17,8 @@ void StoreQueue::put(Work work, Done done, Time now, Of whom) {
   bool is_full = false;
   {
     const std::scoped_lock lock{mutex_};
-    is_full = waiting_.size() >= params_.most_waiting + (whom == Of::ours ? params_.kept : 0);
-    if (!is_full) waiting_.push_back(job);
+    is_full = ours_.size() + strangers_.size() >= params_.most_waiting + (whom == Of::ours ? params_.kept : 0);
+    if (!is_full) (whom == Of::ours ? ours_ : strangers_).push_back(job);
   }
   if (is_full) return tell(*job, fail("too much waits to be stored"));
   told_of_.push_back(std::move(job));
@@ -48,27 +49,42 @@ void StoreQueue::finish() {
   thread_.join();
 }
 
+StoreQueue::Jobs StoreQueue::next(bool& is_of_strangers) {
+  is_of_strangers = ours_.empty() || (!is_of_strangers && !strangers_.empty());
+  auto& waiting = is_of_strangers ? strangers_ : ours_;
+  const auto count = static_cast<std::ptrdiff_t>(std::min(waiting.size(), params_.most_together));
+  Jobs jobs{waiting.begin(), waiting.begin() + count};
+  waiting.erase(waiting.begin(), waiting.begin() + count);
+  return jobs;
+}
+
 void StoreQueue::run(const std::weak_ptr<StoreQueue*>& queue) {
+  using Clock = std::chrono::steady_clock;
+  bool is_of_strangers = true;
   std::unique_lock lock{mutex_};
   while (true) {
-    wakes_.wait(lock, [this] { return is_ending_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    const auto count = static_cast<std::ptrdiff_t>(std::min(waiting_.size(), params_.most_together));
-    Jobs jobs{waiting_.begin(), waiting_.begin() + count};
-    waiting_.erase(waiting_.begin(), waiting_.begin() + count);
+    wakes_.wait(lock, [this] { return is_ending_ || !ours_.empty() || !strangers_.empty(); });
+    if (ours_.empty() && strangers_.empty()) return;
+    Jobs jobs = next(is_of_strangers);
     lock.unlock();
+    const auto begun = Clock::now();
     do_all(jobs);
+    const Duration took = Clock::now() - begun;
     lock.lock();
     if (database_.is_gone()) {
       const Result<void> why = jobs.back()->result;
-      for (auto& job : waiting_) jobs.emplace_back(std::move(job))->result = why;
-      waiting_.clear();
+      for (auto* waiting : {&ours_, &strangers_}) {
+        for (auto& job : *waiting) jobs.emplace_back(std::move(job))->result = why;
+        waiting->clear();
+      }
     }
     lock.unlock();
     post_([queue, jobs = std::move(jobs)] {
       if (const auto self = queue.lock()) (*self)->tell(jobs);
     });
     lock.lock();
+    if (is_of_strangers)
+      wakes_.wait_for(lock, std::min(took, params_.most_rest), [this] { return is_ending_ || !ours_.empty(); });
   }
 }
 
@@ -78,9 +94,21 @@ void StoreQueue::do_all(const Jobs& jobs) {
       if (auto done = job->work(); !done) return done;
     return {};
   });
+  for (const auto& job : jobs) job->result = all;
   // One of them may be to blame for all, unless nobody is there to ask.
-  const bool is_one_by_one = !all && jobs.size() > 1 && !database_.is_gone();
-  for (const auto& job : jobs) job->result = is_one_by_one ? database_.in_transaction(job->work) : all;
+  if (all || jobs.size() == 1 || database_.is_gone()) return;
+  const auto others = database_.in_transaction([&]() -> Result<void> {
+    for (const auto& job : jobs) {
+      if (auto begun = database_.run_script("SAVEPOINT one"); !begun) return begun;
+      job->result = job->work();
+      if (database_.is_gone()) return job->result;
+      if (auto ended = database_.run_script(job->result ? "RELEASE one" : "ROLLBACK TO one; RELEASE one"); !ended)
+        return ended;
+    }
+    return {};
+  });
+  if (others) return;
+  for (const auto& job : jobs) job->result = others;
 }
 
 void StoreQueue::tell(const Jobs& jobs) {

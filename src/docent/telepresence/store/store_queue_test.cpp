@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <future>
+#include <thread>
 
 namespace docent::telepresence {
 namespace {
@@ -103,6 +106,49 @@ TEST_F(StoreQueueTest, OneThatFailsSpoilsNoOther) {
   let_go();
   run_until_told(4);
   EXPECT_EQ(told_, (Names{"held", "a", "bad: twice the same key", "b"}));
+}
+
+TEST_F(StoreQueueTest, WhatFailsCostsOneCommitMoreAndNotOneEach) {
+  make();
+  hold_up();
+  for (int i = 0; i < 100; ++i) put("good");
+  put("bad", [] { return Result<void>{fail("twice the same key")}; });
+  let_go();
+  run_until_told(102);
+  EXPECT_EQ(database_.commits, 2) << "the held one's, and one of the hundred";
+}
+
+TEST_F(StoreQueueTest, OursWaitForOneWriteOfStrangersAtMost) {
+  make({.most_together = 10});
+  hold_up();
+  const auto put_of = [&](const std::string& name, StoreQueue::Of whom) {
+    queue_->put([] { return Result<void>{}; }, [this, name](const Result<void>&) { told_.push_back(name); }, now_,
+                whom);
+  };
+  for (int i = 0; i < 100; ++i) put_of("stranger", StoreQueue::Of::strangers);
+  put_of("ours", StoreQueue::Of::ours);
+  let_go();
+  run_until_told(102);
+  EXPECT_LE(std::find(told_.begin(), told_.end(), "ours") - told_.begin(), 11);
+}
+
+TEST_F(StoreQueueTest, AfterStrangersTheDatabaseIsLeftToOthersForAWhile) {
+  make({.most_together = 1, .most_rest = std::chrono::hours{1}});
+  hold_up();
+  std::atomic<int> stored = 0;
+  for (int i = 0; i < 3; ++i)
+    queue_->put(
+        [&]() -> Result<void> {
+          std::this_thread::sleep_for(std::chrono::milliseconds{30});
+          ++stored;
+          return {};
+        },
+        [this](const Result<void>&) { told_.emplace_back("stranger"); }, now_, StoreQueue::Of::strangers);
+  const auto begun = std::chrono::steady_clock::now();
+  let_go();
+  run_until_told(4);
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds{150})
+      << "three times 30 ms, and two rests";
 }
 
 TEST_F(StoreQueueTest, WhenTheDatabaseIsGoneAllWhoWaitAreToldAtOnce) {
