@@ -65,7 +65,8 @@ class RosLaserLogBuilder {
   /// @param ahead  of the clock of odometry before that of the file
   void use_scans(const std::string& topic, Duration ahead);
   void finish_pings();
-  void note_clock(const std::string& name, std::size_t mended, std::size_t of);
+  /// The stamps of a topic, mended and without steps back.
+  [[nodiscard]] std::vector<Time> followed(const std::string& name, const std::vector<RecordedStamp>& stamps);
 
   LaserLogOptions options_;
   std::map<std::string, std::vector<Scan>> scans_;    ///< by topic

@@ -112,7 +112,7 @@ TEST_F(Maps, ReadsWhatMapServerReads) {
   write("m.pgm", "P2\n2 2\n255\n0 205 254 254\n");
   const std::string plain = "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n";
   const std::vector<std::int8_t> right{0, 0, 100, -1};
-  for (const std::string& odd :
+  for (const std::string odd :
        {"", "negate: false\n", "mode: Trinary\n", "mode: TRINARY\nnegate: False\n", "map_name: ground floor\n"}) {
     write("m.yaml", plain + odd);
     const auto read = read_map(folder_ / "m.yaml");
@@ -130,9 +130,9 @@ TEST_F(Maps, AnyLineEndsOfAPgm) {
   write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
   const std::string cells{"\x00\xcd\xfe\xfe", 4};
   const std::vector<std::int8_t> right{0, 0, 100, -1};
-  for (const std::string& head :
+  for (const std::string head :
        {"P5\n2 2\n255\n", "P5\r\n2 2\r\n255\r\n", "P5\r# by a saver\r2 2\r255\r", "P5 2 2 255 "}) {
-    for (const std::string& tail : {"", "\n"}) {
+    for (const std::string tail : {"", "\n"}) {
       write("m.pgm", head + cells + tail);
       const auto read = read_map(folder_ / "m.yaml");
       ASSERT_TRUE(read) << head << read.error().message;

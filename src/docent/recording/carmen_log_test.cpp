@@ -9,6 +9,8 @@
 #include <functional>
 #include <numbers>
 
+#include "docent/base/files.h"
+
 namespace docent::recording {
 namespace {
 

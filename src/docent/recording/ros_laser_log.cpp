@@ -31,6 +31,16 @@ RecordedStamp stamp_of(const std_msgs::Header& header, Time recorded) {
   return {stamp.nanoseconds == 0 ? recorded : stamp, recorded};
 }
 
+/// Of the stamps' clock before that of the file, in the median.
+Duration ahead_of(const std::vector<Time>& times, const std::vector<RecordedStamp>& stamps) {
+  if (times.empty()) return {};
+  std::vector<Duration> ahead;
+  for (std::size_t i = 0; i < times.size(); ++i) ahead.push_back(times[i] - stamps[i].recorded);
+  const auto middle = ahead.begin() + static_cast<std::ptrdiff_t>(ahead.size() / 2);
+  std::nth_element(ahead.begin(), middle, ahead.end());
+  return *middle;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -157,10 +167,16 @@ std::string RosLaserLogBuilder::refused_text() const {
   return text;
 }
 
-void RosLaserLogBuilder::note_clock(const std::string& name, std::size_t mended, std::size_t of) {
-  if (mended == 0) return;
-  log_.notes.push_back("the clock that stamps " + name + " jumps or stands: " + std::to_string(mended) + " of " +
-                       std::to_string(of) + " stamps are moved by the times of the file");
+std::vector<Time> RosLaserLogBuilder::followed(const std::string& name, const std::vector<RecordedStamp>& stamps) {
+  MendedStamps mended = mended_stamps(stamps);
+  if (mended.mended > 0)
+    log_.notes.push_back("the clock that stamps " + name + " jumps or stands: " + std::to_string(mended.mended) +
+                         " of " + std::to_string(stamps.size()) + " stamps are moved by the times of the file");
+  RisingStamps rising;
+  for (Time& time : mended.times) time = rising.follow(time);
+  if (rising.set_back() > 0)
+    log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
+  return std::move(mended.times);
 }
 
 const FrameTree& RosLaserLogBuilder::frames_of(const std::string& topic) const {
@@ -205,16 +221,12 @@ void RosLaserLogBuilder::use_odometry() {
   const std::string name = chosen_.odometry.empty() ? chosen_.transforms + "/tf" : chosen_.odometry;
   std::vector<RecordedStamp> stamps;
   for (const Odometry& one : of.readings) stamps.push_back(one.stamp);
-  const MendedStamps mended = mended_stamps(stamps);
-  odometry_ahead_ = mended.ahead;
-  note_clock(name, mended.mended, stamps.size());
-  RisingStamps rising;
+  const std::vector<Time> times = followed(name, stamps);
+  odometry_ahead_ = ahead_of(times, stamps);
   for (std::size_t i = 0; i < of.readings.size(); ++i) {
-    of.readings[i].reading.time = rising.follow(mended.times[i]);
+    of.readings[i].reading.time = times[i];
     log_.odometry.push_back(of.readings[i].reading);
   }
-  if (rising.set_back() > 0)
-    log_.notes.push_back("the clock that stamps " + name + " was set back: later stamps are moved as far");
   take_out_jumps();
   std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
                    [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
@@ -238,16 +250,14 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
   std::vector<Scan>& scans = scans_[topic];
   std::vector<RecordedStamp> stamps;
   for (const Scan& one : scans) stamps.push_back(one.stamp);
-  const MendedStamps mended = mended_stamps(stamps);
-  note_clock("the scans of " + topic, mended.mended, stamps.size());
-  Duration shift{};
-  if (const Duration apart = mended.ahead - ahead; !log_.odometry.empty() && (apart > kApart || apart < -kApart)) {
-    shift = apart;
+  std::vector<Time> times = followed("the scans of " + topic, stamps);
+  const Duration apart = ahead_of(times, stamps) - ahead;
+  if (!log_.odometry.empty() && (apart > kApart || apart < -kApart)) {
+    for (Time& time : times) time = time - apart;
     log_.notes.push_back("the scans of " + topic + " are stamped by a clock that is " +
                          std::to_string(std::llround(to_seconds(apart))) +
                          " s ahead of that of odometry: they are moved by the times of the file");
   }
-  RisingStamps rising;
   const std::string frame = scans.front().message.header.frame_id;
   const auto mount = frames_of(topic).mount_of(frame, base_frame_);
   if (!mount) log_.notes.push_back("the place of the laser '" + frame + "' is unknown: the robot's centre is taken");
@@ -256,7 +266,7 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
     const auto range_max = static_cast<double>(message.range_max);
     ranges_.add(topic, message.ranges, range_max);
     LoggedScan scan;
-    scan.time = rising.follow(mended.times[i] - shift);
+    scan.time = times[i];
     scan.first_bearing = Angle::radians(static_cast<double>(message.angle_min));
     scan.bearing_step = static_cast<double>(message.angle_increment);
     scan.ranges.reserve(message.ranges.size());
@@ -282,9 +292,6 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
     log_.scans.push_back(std::move(scan));
     scan_frames_.push_back(frame);
   }
-  if (rising.set_back() > 0)
-    log_.notes.push_back("the clock that stamps the scans of " + topic +
-                         " was set back: later stamps are moved as far");
 }
 
 Result<LaserLog> RosLaserLogBuilder::finish() {

@@ -54,8 +54,6 @@ MendedStamps mended_stamps(const std::vector<RecordedStamp>& stamps) {
     mended.times[i] = mended.times[i] + (shift[i] - right);
     mended.mended += shift[i] != right ? 1 : 0;
   }
-  const std::size_t middle = stamps.size() / 2;
-  mended.ahead = mended.times[middle] - stamps[middle].recorded;
   return mended;
 }
 

@@ -22,7 +22,6 @@ struct RecordedStamp {
 struct MendedStamps {
   std::vector<Time> times;  ///< [messages]
   std::size_t mended = 0;   ///< so many of them
-  Duration ahead{};         ///< of the stamps' clock before that of the file, in the middle of the messages
 };
 [[nodiscard]] MendedStamps mended_stamps(const std::vector<RecordedStamp>& stamps);
 

@@ -32,7 +32,6 @@ TEST(StampClock, SoundStampsStay) {
   EXPECT_LT(worst(sound), 0.05);
   const auto slow = mended_stamps(messages([](int, double at) { return 0.3 * at - 900.0; }));  // a simulation's
   EXPECT_EQ(slow.mended, 0U);
-  EXPECT_NEAR(to_seconds(slow.ahead), -900.0 - 0.7 * 15.0, 0.01);
 }
 
 TEST(StampClock, AClockThatWasSetFollowsItsLongestStretch) {
