@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "docent/base/random.h"
 #include "docent/grid/map_image.h"
 
 namespace docent {
@@ -81,7 +82,8 @@ TEST_F(MapPng, WhatIsNotHalfOpaqueIsClear) {
 
 TEST_F(MapPng, ATornImageIsNamed) {
   std::vector<unsigned char> row;
-  for (int i = 0; i < 4000; ++i) row.push_back(static_cast<unsigned char>(static_cast<unsigned>(i) * 2654435761U >> 24U));
+  Rng rng{1};
+  for (int i = 0; i < 4000; ++i) row.push_back(static_cast<unsigned char>(rng.integer(0, 255)));
   write_png(path_, 4000, {}, {row, row});
   std::filesystem::resize_file(path_, 1500);
   const auto image = open_png(path_);

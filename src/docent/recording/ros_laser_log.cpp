@@ -84,6 +84,9 @@ void RosLaserLogBuilder::add(const Rosbag2Message& message) {
 void RosLaserLogBuilder::take_scan(const std::string& topic, sensor_msgs::LaserScan message, Time recorded) {
   if (message.ranges.empty()) return;
   message = in_order(std::move(message));
+  // A driver that states no reach, or 0: it shows in the readings.
+  if (!(message.range_max > message.range_min) && message.range_min >= 0.0F)
+    message.range_max = static_cast<float>(kFarthestReading);
   if (const MessageFault fault = fault_of(message)) return refuse(topic, fault.text());
   message.header.frame_id = plain_frame(message.header.frame_id);
   message.intensities.clear();

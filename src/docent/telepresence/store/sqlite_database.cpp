@@ -7,16 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "docent/base/files.h"
+#include "docent/telepresence/store/busy_wait.h"
 #include "docent/telepresence/store/open_files.h"
 #include "docent/telepresence/store/read_only_copy.h"
 #include "docent/telepresence/store/salvage/private_files.h"
@@ -202,14 +201,6 @@ class SqliteDatabase final : public Database {
     return kAccountsMended;
   }
 
-  /// SQLite's own waiting looks ever more seldom, and whoever stores all the time is always first.
-  static int wait_for_others(void* /*nothing*/, int times) {
-    constexpr int kLook = 2;  // [ms]
-    if (times * kLook >= kPatience) return 0;
-    std::this_thread::sleep_for(std::chrono::milliseconds{kLook});
-    return 1;
-  }
-
   Result<void> connect() {
     try {
       if (!is_in_memory_) {
@@ -219,7 +210,7 @@ class SqliteDatabase final : public Database {
       }
       connection_ = std::make_unique<SQLite::Database>(files_.file().string(),
                                                        SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kPatience);
-      sqlite3_busy_handler(connection_->getHandle(), &SqliteDatabase::wait_for_others, nullptr);
+      wait_for_others<kPatience>(connection_->getHandle());
       sqlite3_extended_result_codes(connection_->getHandle(), 0);
       connection_->exec("PRAGMA journal_mode = WAL");
       connection_->exec("PRAGMA synchronous = FULL");  // an acknowledgement must outlive a power cut
