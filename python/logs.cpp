@@ -76,6 +76,7 @@ void bind_log(py::module_& module) {
       .def_property_readonly("parameters", [](const LaserLog& log) { return texts_of(log.parameters); })
       .def_readonly("max_range", &LaserLog::max_range, "[m]: from here on a reading means no return")
       .def_readonly("times_are_invented", &LaserLog::times_are_invented)
+      .def_readonly("sources", &LaserLog::sources, "Which topics of a ROS recording it was made of, in words.")
       .def_property_readonly(
           "notes", [](const LaserLog& log) { return texts_of(log.notes); },
           "What had to be assumed or left out, in words.")
@@ -91,12 +92,18 @@ void bind_logs(py::module_& module) {
   const auto shared = [](Result<LaserLog>&& log) { return std::make_shared<LaserLog>(value_or_raise(std::move(log))); };
   module.def(
       "read_laser_log",
-      [shared](const std::filesystem::path& path, bool with_sonars) {
-        return shared(without_interpreter([&] { return read_laser_log(path, with_sonars); }));
+      [shared](const std::filesystem::path& path, bool with_sonars, std::vector<std::string> scans,
+               std::string odometry, std::string robot) {
+        const LaserLogOptions options{with_sonars, {std::move(scans), std::move(odometry), std::move(robot)}};
+        return shared(without_interpreter([&] { return read_laser_log(path, options); }));
       },
-      py::arg("path"), py::arg("with_sonars") = false,
+      py::arg("path"), py::arg("with_sonars") = false, py::arg("scans") = std::vector<std::string>{},
+      py::arg("odometry") = "", py::arg("robot") = "",
       "Reads, by its content, a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or its "
-      "database.\n\n"
+      "database, or a bag of ROS 1.\n\n"
+      "Of a recording of ROS the topics of `scans`, that of `odometry` or the name space of a `robot`; what is not "
+      "said is "
+      "chosen, see `sources` and `notes`.\n\n"
       "Error: names the file, and the line where there are lines.");
   module.def(
       "read_carmen_log",

@@ -67,6 +67,9 @@ def test_a_rosbag2_database(tmp_path):
             database.execute("INSERT INTO messages VALUES (?, 1, ?, ?)", (i, int((100 + i) * 1e9), laser_scan(100 + i, ranges)))
     database.close()
     check_scans(docent.read_laser_log(path))
+    assert "/scan" in docent.read_laser_log(path, scans=["/scan"]).sources
+    with pytest.raises(docent.Error):
+        docent.read_laser_log(path, scans=["/scans"])
 
 
 def test_errors_name_file_and_line(tmp_path):
