@@ -91,10 +91,11 @@ class EventReader {
     if (kind == "odometry_jump") return odometry_jump(body);
     if (kind == "lie") return scanner_lie(body);
     if (kind == "transport") return read_transport(file_, body);
+    if (kind == "charger") return charger(body);
     fault(kind_at_,
           "unknown kind '" + kind +
               "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-              "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, transport)");
+              "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -384,6 +385,18 @@ class EventReader {
   [[nodiscard]] BatteryChange battery(const YAML::Node& node) const {
     BatteryChange event;
     fields(node, {{"charge", into(event.charge, 0.0, 1.0)}}, {"charge"});
+    return event;
+  }
+  [[nodiscard]] ChargerFault charger(const YAML::Node& node) const {
+    ChargerFault event;
+    using Kind = ChargerFault::Kind;
+    fields(node,
+           {{"kind",
+             [&](const YAML::Node& at) {
+               choice<Kind>(at, {{"dead", Kind::dead}, {"claims", Kind::claims}, {"mute", Kind::mute}}, event.kind);
+             }},
+            {"for", into(event.duration, 0.0, kLongest)}},
+           {"kind"});
     return event;
   }
   [[nodiscard]] Kill kill(const YAML::Node& node) const {

@@ -147,6 +147,16 @@ struct Answers {
 struct BatteryChange {
   double charge = 1.0;  ///< 0..1
 };
+/// The charger gives no current.
+struct ChargerFault {
+  enum class Kind {
+    dead,    ///< and the battery says that it does not charge
+    claims,  ///< and the battery says that it charges
+    mute     ///< and the battery says nothing of it, nor ever after
+  };
+  Kind kind = Kind::dead;
+  double duration = 0.0;  ///< [s]; 0: to the end
+};
 /// A signal to a module: carried out by the application.
 struct Kill {
   std::string module;
@@ -164,7 +174,8 @@ struct Moment {
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
-               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport>
+               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport,
+               ChargerFault>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -178,7 +189,8 @@ struct Scenario {
 
 /// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
 /// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
-/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport. With `during: PHASE` it waits for that
+/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger.
+/// With `during: PHASE` it waits for that
 /// phase of the mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);

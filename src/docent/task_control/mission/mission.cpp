@@ -17,6 +17,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       localization_changed_{now},
       lost_since_{now},
       battery_{params.drain_per_s, params.charge_per_s},
+      staff_{params.staff},
       must_charge_{memory.must_charge} {
   scheduler_.times().restore(memory.lessons);
   conditions_.takes_points = planner_->serves_points();
@@ -91,8 +92,13 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
 void Mission::note_rest(TaskKind kind, bool is_done, const Reason& reason, Time now) {
   const bool is_home = kind == TaskKind::home;
   is_resting_ = is_done && is_home;
+  backs_off_ = backs_off_ && !is_home;
+  if (!is_home && is_done) staff_.docked();
+  if (!is_home && !is_done) staff_.failed(reason);
   // At the charger the battery has a moment to say that it charges.
-  if (!is_resting_) home_not_before_ = now + seconds(is_done ? params_.contact_s : params_.home_retry_s);
+  const double retry_s = is_home ? params_.home_retry_s : staff_.retry_s(params_.home_retry_s);
+  const bool is_at_rest = is_done && !staff_.has_no_current();
+  if (!is_resting_) home_not_before_ = now + seconds(is_at_rest ? params_.contact_s : retry_s);
   if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
   const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
   const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
@@ -161,7 +167,23 @@ bool Mission::is_at_charger() const {
   return charger && distance(position(), charger->position()) <= params_.at_charger_m;
 }
 
-bool Mission::has_contact(Time now) const { return battery_.is_charging(now).value_or(is_at_charger()); }
+bool Mission::has_contact(Time now) const {
+  return battery_.is_charging(now).value_or(is_at_charger()) && !staff_.has_no_current();
+}
+
+Reason Mission::charger_trouble() const {
+  const bool is_now = activity_ == Activity::charge && task_reason_.word() == ReasonWord::charger_occupied;
+  const Reason& why = is_now ? task_reason_ : staff_.trouble();
+  const bool is_of_charger =
+      why.word() == ReasonWord::charger_occupied || why.word() == ReasonWord::charger_no_current;
+  return is_of_charger ? why : Reason{};
+}
+
+std::string Mission::staff_call(Time now) const {
+  const std::string why = staff_.told();
+  const auto charge = battery_.charge(now);
+  return why.empty() || !charge ? why : std::to_string(std::lround(100.0 * *charge)) + " % left, " + why;
+}
 
 void Mission::watch_battery(Time now) {
   if (!is_at_charger()) battery_.is_away_from_charger(now);
@@ -176,7 +198,16 @@ void Mission::watch_battery(Time now) {
     is_resting_ = false;
     scheduler_.note({EventKind::battery_low, "", "", *charge});
   }
-  if (scheduler_.programme().charger && *charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
+  if (!scheduler_.programme().charger) return;
+  if (*charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
+  const bool is_there = is_at_charger() && battery_.is_charging(now).value_or(true) && !battery_.is_silent(now);
+  const bool was_in_vain = staff_.has_no_current();
+  if (auto call = staff_.watch(*charge, is_there, *charge >= params_.battery_full, now)) scheduler_.note(std::move(*call));
+  if (staff_.has_no_current() && !was_in_vain) {
+    backs_off_ = staff_.failures() == 1;
+    home_not_before_ = now + seconds(staff_.retry_s(params_.home_retry_s));
+    scheduler_.note({EventKind::charger_failed, "", to_text(ReasonWord::charger_no_current)});
+  }
 }
 
 Point2 Mission::position() const { return position_.value_or(scheduler_.programme().home.position()); }
@@ -287,7 +318,9 @@ MissionSummary Mission::summary(Time now) {
     summary.exhibit_id = summary.agenda.front();
   }
   summary.needs_charge = must_charge_;
+  summary.charger_trouble = charger_trouble();
   if (const auto charge = battery_.charge(now); charge && charges()) {
+    summary.charge_percent = static_cast<int>(std::lround(100.0 * *charge));
     const bool is_awaited = scheduler_.is_anything_due(now);
     const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
     summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
