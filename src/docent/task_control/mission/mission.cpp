@@ -18,7 +18,10 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       lost_since_{now},
       battery_{params.drain_per_s, params.charge_per_s},
       staff_{params.staff},
+      charge_plan_{params.charging},
       must_charge_{memory.must_charge} {
+  charge_plan_.demand().restore(memory.lessons);
+  std::erase_if(memory.lessons, [](const LessonRow& row) { return row.key.kind == LessonKind::demand; });
   scheduler_.times().restore(memory.lessons);
   conditions_.takes_points = planner_->serves_points();
   // What is under way goes on under its old task id, so that an executive that works on it is not disturbed.
@@ -124,7 +127,12 @@ void Mission::battery(double charge, std::optional<bool> is_charging, Time now) 
   decide(now);
 }
 
-void Mission::tick(Time now) { decide(now); }
+void Mission::tick(Time now) {
+  const SchedulerState& schedule = scheduler_.state();
+  charge_plan_.demand().observe(charge_plan_.hour(),
+                                schedule.visit || schedule.tour || scheduler_.is_anything_due(now), now);
+  decide(now);
+}
 
 bool Mission::is_lost(Time now) const {
   return !is_localized_ && now - localization_changed_ >= seconds(params_.lost_after_s);
@@ -140,7 +148,9 @@ Pose2 Mission::resting_place() const {
 }
 
 double Mission::enough_to_serve() const {
-  return std::min(params_.battery_full, params_.battery_low + params_.battery_gain);
+  const Waiting waiting = waiting_on(scheduler_.state().board);
+  return std::min(params_.battery_full, params_.battery_low + charge_plan_.gain_for(waiting, params_.battery_gain,
+                                                                                    battery_.drain_per_s()));
 }
 
 double Mission::spare(Time now) const {
@@ -199,7 +209,7 @@ void Mission::watch_battery(Time now) {
     scheduler_.note({EventKind::battery_low, "", "", *charge});
   }
   if (!scheduler_.programme().charger) return;
-  if (*charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
+  if (*charge < params_.battery_full - charge_plan_.missing_in_gap(params_.battery_gain)) tops_up_ = true;
   const bool is_there = is_at_charger() && battery_.is_charging(now).value_or(true) && !battery_.is_silent(now);
   const bool was_in_vain = staff_.has_no_current();
   if (auto call = staff_.watch(*charge, is_there, *charge >= params_.battery_full, now)) scheduler_.note(std::move(*call));
@@ -267,7 +277,8 @@ Situation Mission::situation(Time now) const {
   seen.is_charging = is_at_charger() && has_contact(now);
   seen.is_charged = !charges() || (seen.is_anything_due && seen.charge.value_or(1.0) >= enough_to_serve());
   seen.has_charger = scheduler_.programme().charger.has_value();
-  seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon;
+  seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon &&
+                     charge_plan_.may_charge_before(waiting_on(schedule.board));
   seen.must_charge = must_charge_;
   seen.charges = charges();
   seen.may_mingle = params_.mingles && is_resting_ && has_company_ && seen.is_open &&
@@ -359,13 +370,17 @@ MissionPhase Mission::phase(Time now) const {
 }
 
 MissionMemory Mission::memory() const {
-  return {scheduler_.state(),           deployment_, next_task_, task_, must_charge_, planner_->memory(),
-          scheduler_.times().unstored()};
+  MissionMemory memory{scheduler_.state(), deployment_,  next_task_, task_, must_charge_, planner_->memory(),
+                       scheduler_.times().unstored()};
+  const auto demand = charge_plan_.demand().unstored();
+  memory.lessons.insert(memory.lessons.end(), demand.begin(), demand.end());
+  return memory;
 }
 
 void Mission::mark_stored() {
   scheduler_.board().mark_stored();
   scheduler_.times().mark_stored();
+  charge_plan_.demand().mark_stored();
 }
 
 }  // namespace docent::task_control

@@ -67,7 +67,10 @@ class Mission {
   void localization(bool is_localized, Point2 position, Time now);
   void limits(bool is_open, std::optional<OperatingMode> mode);
   /// @param hour  of the day, 0..23: travel times depend on it
-  void time_of_day(int hour) { scheduler_.times().set_hour(hour); }
+  void time_of_day(int hour) {
+    scheduler_.times().set_hour(hour);
+    charge_plan_.set_hour(hour);
+  }
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
@@ -157,6 +160,7 @@ class Mission {
   [[nodiscard]] double spare(Time now) const;
   /// How long it may be busy before it must charge [s].
   [[nodiscard]] double budget_s(Time now) const;
+  /// Charge with which it serves who waits.
   [[nodiscard]] double enough_to_serve() const;
   void watch_battery(Time now);
   [[nodiscard]] const std::vector<std::string>& agenda(Time now);
@@ -183,6 +187,7 @@ class Mission {
   Conditions conditions_;
   BatteryWatch battery_;
   StaffCall staff_;
+  ChargePlan charge_plan_;
   bool must_charge_;            ///< too little is left to go on
   bool backs_off_ = false;      ///< goes home before it docks anew: its charger gives no current
   bool tops_up_ = false;        ///< charges, or goes to its charger, whenever nobody wants anything
