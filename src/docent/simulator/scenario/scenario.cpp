@@ -91,7 +91,7 @@ class EventReader {
     if (kind == "odometry_jump") return odometry_jump(body);
     if (kind == "lie") return scanner_lie(body);
     if (kind == "transport") return read_transport(file_, body);
-    if (kind == "charger") return charger(body);
+    if (kind == "charger") return read_charger(file_, body);
     fault(kind_at_,
           "unknown kind '" + kind +
               "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
@@ -385,18 +385,6 @@ class EventReader {
   [[nodiscard]] BatteryChange battery(const YAML::Node& node) const {
     BatteryChange event;
     fields(node, {{"charge", into(event.charge, 0.0, 1.0)}}, {"charge"});
-    return event;
-  }
-  [[nodiscard]] ChargerFault charger(const YAML::Node& node) const {
-    ChargerFault event;
-    using Kind = ChargerFault::Kind;
-    fields(node,
-           {{"kind",
-             [&](const YAML::Node& at) {
-               choice<Kind>(at, {{"dead", Kind::dead}, {"claims", Kind::claims}, {"mute", Kind::mute}}, event.kind);
-             }},
-            {"for", into(event.duration, 0.0, kLongest)}},
-           {"kind"});
     return event;
   }
   [[nodiscard]] Kill kill(const YAML::Node& node) const {

@@ -10,6 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 #include "docent/simulator/scenario/build_errors.h"
+#include "docent/simulator/scenario/charger_event.h"
 #include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -146,16 +147,6 @@ struct Answers {
 /// The battery is changed for one with this charge.
 struct BatteryChange {
   double charge = 1.0;  ///< 0..1
-};
-/// The charger gives no current.
-struct ChargerFault {
-  enum class Kind {
-    dead,    ///< and the battery says that it does not charge
-    claims,  ///< and the battery says that it charges
-    mute     ///< and the battery says nothing of it, nor ever after
-  };
-  Kind kind = Kind::dead;
-  double duration = 0.0;  ///< [s]; 0: to the end
 };
 /// A signal to a module: carried out by the application.
 struct Kill {

@@ -125,8 +125,6 @@ constexpr Broken kBroken[] = {
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
      "visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, "
      "odometry_jump, lie, transport, charger)"},
-    {"events:\n  - {at: 1, charger: }", "s.yaml:2: missing key 'kind'"},
-    {"events:\n  - at: 1\n    charger: {kind: off}", "s.yaml:3: expected one of dead, claims, mute, found 'off'"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},
