@@ -185,9 +185,9 @@ TEST_F(MissionTest, AnOccupiedChargerIsTriedAgainAndTheStaffAreCalled) {
   EXPECT_EQ(mission->task().kind, TaskKind::charge) << "again";
   report(TaskStatus::done);
   robot = {0, 3};
-  for (double charge = 0.13; charge < 0.16; charge += 0.005) {
+  for (double charge = 0.13; charge < 0.16; charge += 0.001) {
     battery(charge, true);
-    pass(20.0);
+    pass(5.0);
   }
   EXPECT_EQ(mission->staff_call(time()), "");
   EXPECT_TRUE(mission->summary(time()).charger_trouble.is_none());
@@ -199,9 +199,9 @@ TEST_F(MissionTest, AtAChargerWithoutCurrentItBacksOffAndTriesAgain) {
   battery(0.14, true);  // so it says
   pass(5.0);
   EXPECT_EQ(phase(), MissionPhase::charging);
-  for (double charge = 0.14; charge > 0.12; charge -= 0.001) {
+  for (double charge = 0.14; charge > 0.12; charge -= 0.0005) {
     battery(charge, true);
-    pass(14.0);
+    pass(7.0);
   }
   EXPECT_TRUE(happened(EventKind::charger_failed) && happened(EventKind::staff_called));
   EXPECT_EQ(mission->summary(time()).charger_trouble, ReasonWord::charger_no_current);

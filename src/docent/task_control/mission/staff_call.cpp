@@ -43,11 +43,12 @@ double StaffCall::retry_s(double first_s) const {
 void StaffCall::watch_current(double charge, bool is_at_charger, bool is_full, Time now) {
   if (!is_at_charger) return dock_.reset();
   if (!dock_) dock_ = Dock{now, charge, charge, now};
-  if (charge >= dock_->most + kStep) {
+  const bool rises = charge >= dock_->most + kStep;
+  if (rises) {
     dock_->most = charge;
     dock_->rose = now;
   }
-  if (is_full || charge >= dock_->began_with + kRise) {  // whatever was wrong is over
+  if (is_full || (rises && charge >= dock_->began_with + kRise)) {  // whatever was wrong is over
     why_ = {};
     failures_ = 0;
     told_.reset();
