@@ -186,10 +186,10 @@ enum class ReasonWord {
   obstacle_near,
   stopped_by_hand,  ///< by an operator's stop button
   steered_by_hand,
-  no_lease,          ///< to steer, or no longer; about the name of whoever has it
-  stop_unconfirmed,  ///< the robot has not said in time that it holds the order; it is repeated for ever
-  another_stop,      ///< somebody has pressed again since: about their name; a release is for the stop it names
-  charger_occupied,  ///< something stands where the robot charges
+  no_lease,            ///< to steer, or no longer; about the name of whoever has it
+  stop_unconfirmed,    ///< the robot has not said in time that it holds the order; it is repeated for ever
+  another_stop,        ///< somebody has pressed again since: about their name; a release is for the stop it names
+  charger_occupied,    ///< something stands where the robot charges
   charger_no_current,  ///< it stands at its charger, and the battery does not charge
 };
 constexpr auto words_of(ReasonWord) {

@@ -31,8 +31,7 @@ std::vector<Point2> FeltPlaces::outlines(const Pose2& odom_from_base, double rea
   for (const FeltThings::Disc& disc : things_.discs()) {
     const Point2 middle = base_from_here * disc.middle();
     if (norm(middle) > reach + disc.radius) continue;
-    const int steps =
-        1 + static_cast<int>(2.0 * std::numbers::pi * disc.radius / params_.point_step);
+    const int steps = 1 + static_cast<int>(2.0 * std::numbers::pi * disc.radius / params_.point_step);
     for (int i = 0; i < steps; ++i)
       points.push_back(middle + disc.radius * unit(Angle::radians(2.0 * std::numbers::pi * i / steps)));
   }

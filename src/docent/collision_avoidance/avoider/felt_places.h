@@ -17,8 +17,8 @@ struct FeltPlacesParams {
 };
 
 /// Keeps what only touch finds where it stands in the building: in the map's frame, as soon as the robot knows its
-/// place, for odometry wanders off in the minutes until it comes by again. A wrong place makes it careful elsewhere, and
-/// no less careful about what it senses now. Deterministic.
+/// place, for odometry wanders off in the minutes until it comes by again. A wrong place makes it careful elsewhere,
+/// and no less careful about what it senses now. Deterministic.
 class FeltPlaces {
  public:
   explicit FeltPlaces(const FeltPlacesParams& params, const FeltThingsParams& things = {})

@@ -32,7 +32,12 @@ struct SurroundingsParams {
 class Surroundings {
  public:
   Surroundings(const BaseLimits& limits, const SurroundingsParams& params, const VirtualObstaclesParams& virtual_params)
-      : limits_{limits}, params_{params}, memory_{memory_of(params)}, seen_{{.seen_for = params.seen_for}}, felt_{params.felt}, virtual_{virtual_params} {}
+      : limits_{limits},
+        params_{params},
+        memory_{memory_of(params)},
+        seen_{{.seen_for = params.seen_for}},
+        felt_{params.felt},
+        virtual_{virtual_params} {}
 
   /// @param odom_from_base  pose at the sweep's stamp
   void add_sweep(std::size_t sensor, SensorSweep sweep, const Pose2& odom_from_base) {

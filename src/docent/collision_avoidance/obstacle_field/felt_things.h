@@ -18,12 +18,12 @@ struct FeltThingsParams {
   std::size_t most = 200;     ///< discs; then the oldest is forgotten
 };
 
-/// What only touch finds stays felt: where the body met something that no laser sees there stands a disc, until the body
-/// itself has stood in its place. That a laser sees nothing there proves nothing, for it looks above it. In a frame of
-/// the building, the map's or, as long as the robot does not know its place, odometry's.
+/// What only touch finds stays felt: where the body met something that no laser sees there stands a disc, until the
+/// body itself has stood in its place. That a laser sees nothing there proves nothing, for it looks above it. In a
+/// frame of the building, the map's or, as long as the robot does not know its place, odometry's.
 ///
-/// A disc that touches the body at `at` has its middle on the line from the body's centre through that place; so a round
-/// thing of at most that radius lies in it, wherever it was met. Deterministic. O(discs) each.
+/// A disc that touches the body at `at` has its middle on the line from the body's centre through that place; so a
+/// round thing of at most that radius lies in it, wherever it was met. Deterministic. O(discs) each.
 class FeltThings {
  public:
   struct Disc {

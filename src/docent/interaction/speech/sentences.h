@@ -26,8 +26,8 @@ enum class Sentence {
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,
-  battery_low,  ///< must charge, and is not at the charger yet
-  charging,     ///< at the charger, for about {title} minutes more
+  battery_low,         ///< must charge, and is not at the charger yet
+  charging,            ///< at the charger, for about {title} minutes more
   charger_occupied,    ///< must charge, and something stands on its charger; its charge is {title} %
   charger_no_current,  ///< must charge, and its charger gives no current; likewise
   // spoken

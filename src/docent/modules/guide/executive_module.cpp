@@ -64,10 +64,9 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
-      executive_.goal_report(
-          {state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s, state.reason, state.detour,
-           state.occupied},
-          bus_.now());
+      executive_.goal_report({state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s,
+                              state.reason, state.detour, state.occupied},
+                             bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& state) {

@@ -28,13 +28,13 @@ constexpr Duration kFreeFor = std::chrono::seconds{2};  // then what stood on th
 const Docking::Step* Docking::now_at() const {
   using enum Step::Kind;
   static constexpr std::array kFree{
-      Step{contact, nullptr, 0.0},      Step{closer, "closer", 0.0}, Step{contact, nullptr, 0.0},
-      Step{aside, "before", 1.0},       Step{closer, "from-before", 0.0}, Step{contact, nullptr, 0.0},
-      Step{aside, "behind", -1.0},      Step{closer, "from-behind", 0.0}, Step{contact, nullptr, 0.0},
+      Step{contact, nullptr, 0.0}, Step{closer, "closer", 0.0},      Step{contact, nullptr, 0.0},
+      Step{aside, "before", 1.0},  Step{closer, "from-before", 0.0}, Step{contact, nullptr, 0.0},
+      Step{aside, "behind", -1.0}, Step{closer, "from-behind", 0.0}, Step{contact, nullptr, 0.0},
   };
   static constexpr std::array kOccupied{
-      Step{room, nullptr, 0.0},    Step{closer, "again", 0.0},       Step{contact, nullptr, 0.0},
-      Step{beside, "beside", 0.0}, Step{contact, nullptr, 0.0},      Step{aside, "behind", -1.0},
+      Step{room, nullptr, 0.0},         Step{closer, "again", 0.0},  Step{contact, nullptr, 0.0},
+      Step{beside, "beside", 0.0},      Step{contact, nullptr, 0.0}, Step{aside, "behind", -1.0},
       Step{closer, "from-behind", 0.0}, Step{contact, nullptr, 0.0},
   };
   const std::span<const Step> steps = began_before_ ? std::span<const Step>{kOccupied} : std::span<const Step>{kFree};

@@ -95,9 +95,9 @@ class Docking {
   std::size_t step_ = 0;  ///< of those in docking.cpp
   bool began_before_;     ///< a charger on which something stands
   bool is_occupied_;
-  bool stands_there_;       ///< the last drive to the charger arrived
-  bool stood_there_;        ///< one of them did
-  Time last_occupied_;      ///< when something was last seen there
+  bool stands_there_;   ///< the last drive to the charger arrived
+  bool stood_there_;    ///< one of them did
+  Time last_occupied_;  ///< when something was last seen there
 };
 
 }  // namespace docent::task_control

@@ -41,8 +41,7 @@ void Executive::resume(Time now) {
       return;
     }
   }
-  if (under_way(DirectiveKind::dock) != nullptr)
-    begin_docking(now);
+  if (under_way(DirectiveKind::dock) != nullptr) begin_docking(now);
   send_drive();
   report();
 }

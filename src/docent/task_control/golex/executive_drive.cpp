@@ -66,8 +66,7 @@ void Executive::climb_ladder(Time now) {
   if (now - obstacle_time_ > kReportLife) obstacle_ = {};
   const bool is_unreachable = goal_.state == GoalStatus::unreachable;
   const bool is_occupied = is_before_occupied_charger();
-  const bool is_thing_there =
-      is_occupied && !somebody_.is_near(memory_.task.order.map_from_base.position(), now);
+  const bool is_thing_there = is_occupied && !somebody_.is_near(memory_.task.order.map_from_base.position(), now);
   const LadderView view{obstacle_.is_hindered,
                         obstacle_.is_unmapped,
                         is_unreachable,

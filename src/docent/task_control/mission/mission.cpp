@@ -129,8 +129,8 @@ void Mission::battery(double charge, std::optional<bool> is_charging, Time now) 
 
 void Mission::tick(Time now) {
   const SchedulerState& schedule = scheduler_.state();
-  charge_plan_.demand().observe(charge_plan_.hour(),
-                                schedule.visit || schedule.tour || scheduler_.is_anything_due(now), now);
+  charge_plan_.demand().observe(charge_plan_.hour(), schedule.visit || schedule.tour || scheduler_.is_anything_due(now),
+                                now);
   decide(now);
 }
 
@@ -149,8 +149,8 @@ Pose2 Mission::resting_place() const {
 
 double Mission::enough_to_serve() const {
   const Waiting waiting = waiting_on(scheduler_.state().board);
-  return std::min(params_.battery_full, params_.battery_low + charge_plan_.gain_for(waiting, params_.battery_gain,
-                                                                                    battery_.drain_per_s()));
+  return std::min(params_.battery_full,
+                  params_.battery_low + charge_plan_.gain_for(waiting, params_.battery_gain, battery_.drain_per_s()));
 }
 
 double Mission::spare(Time now) const {
@@ -184,8 +184,7 @@ bool Mission::has_contact(Time now) const {
 Reason Mission::charger_trouble() const {
   const bool is_now = activity_ == Activity::charge && task_reason_.word() == ReasonWord::charger_occupied;
   const Reason& why = is_now ? task_reason_ : staff_.trouble();
-  const bool is_of_charger =
-      why.word() == ReasonWord::charger_occupied || why.word() == ReasonWord::charger_no_current;
+  const bool is_of_charger = why.word() == ReasonWord::charger_occupied || why.word() == ReasonWord::charger_no_current;
   return is_of_charger ? why : Reason{};
 }
 
@@ -212,7 +211,8 @@ void Mission::watch_battery(Time now) {
   if (*charge < params_.battery_full - charge_plan_.missing_in_gap(params_.battery_gain)) tops_up_ = true;
   const bool is_there = is_at_charger() && battery_.is_charging(now).value_or(true) && !battery_.is_silent(now);
   const bool was_in_vain = staff_.has_no_current();
-  if (auto call = staff_.watch(*charge, is_there, *charge >= params_.battery_full, now)) scheduler_.note(std::move(*call));
+  if (auto call = staff_.watch(*charge, is_there, *charge >= params_.battery_full, now))
+    scheduler_.note(std::move(*call));
   if (staff_.has_no_current() && !was_in_vain) {
     backs_off_ = staff_.failures() == 1;
     home_not_before_ = now + seconds(staff_.retry_s(params_.home_retry_s));
@@ -370,7 +370,7 @@ MissionPhase Mission::phase(Time now) const {
 }
 
 MissionMemory Mission::memory() const {
-  MissionMemory memory{scheduler_.state(), deployment_,  next_task_, task_, must_charge_, planner_->memory(),
+  MissionMemory memory{scheduler_.state(),           deployment_, next_task_, task_, must_charge_, planner_->memory(),
                        scheduler_.times().unstored()};
   const auto demand = charge_plan_.demand().unstored();
   memory.lessons.insert(memory.lessons.end(), demand.begin(), demand.end());

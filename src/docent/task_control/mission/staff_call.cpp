@@ -64,9 +64,9 @@ void StaffCall::watch_current(double charge, bool is_at_charger, bool is_full, T
 bool StaffCall::is_time_to_call(double charge, Time now) const {
   const bool is_soon_charged = dock_ && !dock_->gives_none && now - dock_->rose < kFirstLook;
   const bool is_low = charge < params_.call_below && !is_soon_charged;
-  const bool is_trouble =
-      is_of_charger(why_) ? failures_ >= (charge < params_.trouble_below ? 1 : params_.trouble_tries)
-                          : failures_ >= params_.way_tries;
+  const bool is_trouble = is_of_charger(why_)
+                              ? failures_ >= (charge < params_.trouble_below ? 1 : params_.trouble_tries)
+                              : failures_ >= params_.way_tries;
   if (!is_low && (why_.is_none() || !is_trouble)) return false;
   return !told_ || told_->why != reason() || now - told_->when >= seconds(params_.call_again_s);
 }
