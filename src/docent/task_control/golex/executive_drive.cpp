@@ -66,7 +66,11 @@ void Executive::climb_ladder(Time now) {
   if (now - obstacle_time_ > kReportLife) obstacle_ = {};
   const bool is_unreachable = goal_.state == GoalStatus::unreachable;
   const bool is_occupied = is_before_occupied_charger();
-  const bool is_thing_there = is_occupied && !somebody_.is_near(memory_.task.order.map_from_base.position(), now);
+  const Directive* to_charger = under_way(DirectiveKind::drive);
+  const bool is_to_charger = to_charger != nullptr && to_charger->argument == "charger";
+  const Point2 place = memory_.task.order.map_from_base.position();
+  const bool is_thing = is_to_charger && somebody_.is_thing(place, goal_.is_occupied, now);
+  const bool is_thing_there = is_occupied && is_thing;
   const LadderView view{obstacle_.is_hindered,
                         obstacle_.is_unmapped,
                         is_unreachable,
