@@ -42,6 +42,7 @@ struct GoalState {
   std::string reason;       ///< in English, for logs
   std::string detour;       ///< none, local, global: how the way differs from the one that was meant
   double detour_extra = 0;  ///< [m] that it is longer
+  bool occupied = false;    ///< something that is not in the map stands where the robot would stand
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -52,6 +53,7 @@ struct GoalState {
     v("reason", m.reason);
     v("detour", m.detour);
     v("detour_extra", m.detour_extra);
+    v("occupied", m.occupied);
   }
 };
 

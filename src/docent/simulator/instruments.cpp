@@ -343,7 +343,7 @@ void Instruments::publish_battery(Time now, const Battery& battery) {
   message.charge = static_cast<float>(24.0 * battery.charge());
   message.percentage = static_cast<float>(battery.charge());
   message.temperature = 25.0F;
-  message.power_supply_status = battery.is_charging() ? (battery.charge() >= 1.0 ? 4 : 1) : 2;
+  message.power_supply_status = battery.supply_status();
   message.power_supply_health = 1;
   battery_.publish(std::move(message));
 }

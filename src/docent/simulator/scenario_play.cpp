@@ -181,6 +181,13 @@ void SimulatedMuseum::Impl::play(const BatteryChange& event) {
   offer("battery", "");
 }
 
+void SimulatedMuseum::Impl::play(const ChargerFault& event) {
+  charger_fault_ = event.kind;
+  charger_fault_until_ = end_of(event.duration);
+  has_mute_battery_ = has_mute_battery_ || event.kind == ChargerFault::Kind::mute;
+  offer("charger", "");
+}
+
 void SimulatedMuseum::Impl::play(const OdometryJump& event) {
   instruments_.jump(event.by, event.over);
   offer("odometry_jump", "");

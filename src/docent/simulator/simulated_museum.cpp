@@ -152,10 +152,17 @@ void SimulatedMuseum::Impl::step() {
   }
   touch();
   distance_ += distance(before.position(), body_.pose().position());
+  charge();
+  publish();
+}
+
+void SimulatedMuseum::Impl::charge() {
+  if (charger_fault_ && run_seconds() >= charger_fault_until_) charger_fault_.reset();
   const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
                           std::abs(body_.linear()) < 0.01;
-  battery_.step(kWorldStep, body_.linear(), at_charger);
-  publish();
+  battery_.step(kWorldStep, body_.linear(), at_charger && !charger_fault_);
+  const bool claims = at_charger && charger_fault_ == ChargerFault::Kind::claims;
+  battery_.say(has_mute_battery_ ? Battery::Word::nothing : claims ? Battery::Word::charges : Battery::Word::truth);
 }
 
 void SimulatedMuseum::Impl::steer() {

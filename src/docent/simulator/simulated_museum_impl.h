@@ -63,6 +63,8 @@ class SimulatedMuseum::Impl {
   [[nodiscard]] RobotView view() const;
 
   void step();
+  /// The robot stands at its charger, or does not.
+  void charge();
   void steer();
   /// Contacts of the disc with solids and people; pushes both apart.
   void touch();
@@ -90,6 +92,7 @@ class SimulatedMuseum::Impl {
   void play(const Wish& event) { visitors_.ask(time_, event); }
   void play(const Answers& event);
   void play(const BatteryChange& event);
+  void play(const ChargerFault& event);
   void play(const OdometryJump& event);
   void play(const ScannerLie& event);
   void play(const Transport& event);
@@ -126,6 +129,9 @@ class SimulatedMuseum::Impl {
   std::optional<Cameras> cameras_;
   WishingVisitors visitors_;
   Battery battery_;
+  std::optional<ChargerFault::Kind> charger_fault_;
+  double charger_fault_until_ = 0.0;  ///< [s] run time
+  bool has_mute_battery_ = false;
   ContactLog log_;
   std::uint64_t steps_ = 0;
   double distance_ = 0.0;

@@ -186,9 +186,11 @@ enum class ReasonWord {
   obstacle_near,
   stopped_by_hand,  ///< by an operator's stop button
   steered_by_hand,
-  no_lease,          ///< to steer, or no longer; about the name of whoever has it
-  stop_unconfirmed,  ///< the robot has not said in time that it holds the order; it is repeated for ever
-  another_stop,      ///< somebody has pressed again since: about their name; a release is for the stop it names
+  no_lease,            ///< to steer, or no longer; about the name of whoever has it
+  stop_unconfirmed,    ///< the robot has not said in time that it holds the order; it is repeated for ever
+  another_stop,        ///< somebody has pressed again since: about their name; a release is for the stop it names
+  charger_occupied,    ///< something stands where the robot charges
+  charger_no_current,  ///< it stands at its charger, and the battery does not charge
 };
 constexpr auto words_of(ReasonWord) {
   return std::array{"no_such_exhibit",
@@ -236,7 +238,9 @@ constexpr auto words_of(ReasonWord) {
                     "steered_by_hand",
                     "no_lease",
                     "stop_unconfirmed",
-                    "another_stop"};
+                    "another_stop",
+                    "charger_occupied",
+                    "charger_no_current"};
 }
 
 /// What is worth a line in the history (docs/terminology.md, Events).
@@ -277,6 +281,7 @@ enum class EventKind {
   asked_for_way,
   prompt_shown,
   choice,
+  staff_called,
 };
 constexpr auto words_of(EventKind) {
   return std::array{"request_queued",   "request_refused",
@@ -296,7 +301,8 @@ constexpr auto words_of(EventKind) {
                     "charger_failed",   "battery_low",
                     "battery_full",     "arrived",
                     "drive_blocked",    "asked_for_way",
-                    "prompt_shown",     "choice"};
+                    "prompt_shown",     "choice",
+                    "staff_called"};
 }
 
 /// An enumeration of the above.

@@ -67,7 +67,7 @@ export interface Scan {
   points: number[];
 }
 export interface Reason {
-  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'no_such_room' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease' | 'stop_unconfirmed' | 'another_stop';
+  word: 'no_such_exhibit' | 'no_such_viewpoint' | 'no_such_tour' | 'no_such_request' | 'not_understood' | 'for_web_only' | 'web_only_now' | 'closed' | 'too_many_wait' | 'too_many_points' | 'only_in_web_hours' | 'no_such_room' | 'not_on_free_floor' | 'not_stored' | 'question_over' | 'no_such_answer' | 'busy' | 'too_fast' | 'charging_first' | 'on_the_way' | 'joins_tour' | 'tour_begun' | 'cancelled' | 'gone' | 'not_reached' | 'battery_low' | 'took_too_long' | 'no_way' | 'way_blocked' | 'unknown_task' | 'person_in_way' | 'obstacle_in_way' | 'hazard_in_way' | 'border_in_way' | 'people_near' | 'touched' | 'felt_thing_near' | 'braking' | 'border_near' | 'hazard_near' | 'obstacle_near' | 'stopped_by_hand' | 'steered_by_hand' | 'no_lease' | 'stop_unconfirmed' | 'another_stop' | 'charger_occupied' | 'charger_no_current';
   about: string;
 }
 export interface Avoid {
@@ -1390,7 +1390,9 @@ export const documents = {
           "steered_by_hand",
           "no_lease",
           "stop_unconfirmed",
-          "another_stop"
+          "another_stop",
+          "charger_occupied",
+          "charger_no_current"
         ]
       }
     },

@@ -160,4 +160,6 @@ export default {
   reason_no_lease: 'Du hast das Steuer nicht.',
   reason_stop_unconfirmed: 'Der Roboter hat den Halt noch nicht bestätigt.',
   reason_another_stop: 'Inzwischen hat jemand anderes angehalten.',
+  reason_charger_occupied: 'Ich kann nicht laden: Auf meinem Ladeplatz steht etwas.',
+  reason_charger_no_current: 'Ich kann nicht laden: Meine Ladestation gibt keinen Strom.',
 } satisfies Words;

@@ -160,6 +160,8 @@ const words = {
   reason_no_lease: 'You do not have the wheel.',
   reason_stop_unconfirmed: 'The robot has not confirmed the stop yet.',
   reason_another_stop: 'Somebody else has stopped me since.',
+  reason_charger_occupied: 'I cannot charge: something stands on my charger.',
+  reason_charger_no_current: 'I cannot charge: my charger gives no current.',
 };
 export default words;
 export type Words = typeof words;

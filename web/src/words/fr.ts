@@ -160,4 +160,6 @@ export default {
   reason_no_lease: 'Vous n’avez pas les commandes.',
   reason_stop_unconfirmed: 'Le robot n’a pas encore confirmé l’arrêt.',
   reason_another_stop: 'Quelqu’un d’autre m’a arrêté entre-temps.',
+  reason_charger_occupied: 'Je ne peux pas recharger : quelque chose occupe ma station.',
+  reason_charger_no_current: 'Je ne peux pas recharger : ma station ne donne pas de courant.',
 } satisfies Words;

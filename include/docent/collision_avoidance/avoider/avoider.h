@@ -127,6 +127,8 @@ class Avoider {
   /// A sweep that comes after a newer one, or twice.
   [[nodiscard]] bool was_overtaken(std::size_t sensor, Time stamp);
   [[nodiscard]] bool is_touched(Time now, double within) const;
+  /// Keeps in mind what only touch finds.
+  void feel(Time now, TouchedBy who, Angle bearing, const Pose2& odom_from_base);
   [[nodiscard]] BaseState state_when_effective(Time now) const;
   /// [m/s] that the robot may drive at most.
   [[nodiscard]] double top_speed() const { return std::min(max_speed_, limits_.max_speed); }

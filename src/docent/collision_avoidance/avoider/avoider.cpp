@@ -100,14 +100,25 @@ void Avoider::add_tactile(Time now, Time stamp, std::span<const std::uint8_t> se
   if (odometry_.empty()) return;
   const Time taken = local_time_.receive("tactile", now, stamp);
   ObstacleMemory& memory = surroundings_.memory();
-  memory.stand(odometry_.pose_at(taken).position(), limits_.inradius() - params_.touch.dent);
+  const Pose2 odom_from_base = odometry_.pose_at(taken);
+  memory.stand(odom_from_base.position(), limits_.inradius() - params_.touch.dent);
+  surroundings_.felt().stand(odom_from_base.position(), limits_.inradius() - params_.touch.dent, now);
   const double step = 2.0 * std::numbers::pi / static_cast<double>(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (segments[i] == 0 || segments[i] == TactileWatch::kNoReading) continue;
     const Angle bearing = Angle::radians(step * static_cast<double>(i));
     contact_.feel(now, odometry_.newest().odom_from_base.theta + bearing);
-    memory.add_touch(taken, limits_.edge(bearing), odometry_.pose_at(taken));
+    const TouchedBy who = memory.add_touch(taken, limits_.edge(bearing), odom_from_base);
+    feel(now, who, bearing, odom_from_base);
   }
+}
+
+void Avoider::feel(Time now, TouchedBy who, Angle bearing, const Pose2& odom_from_base) {
+  const double speed = odometry_.newest().velocity.linear * unit(bearing).x;
+  const bool drove_into_it = speed > params_.touch.drives_into;
+  if (who == TouchedBy::seen || (who == TouchedBy::somebody && !drove_into_it)) return;
+  surroundings_.felt().feel(odom_from_base * limits_.edge(bearing), unit(odom_from_base.theta + bearing),
+                            who == TouchedBy::somebody, now);
 }
 
 void Avoider::add_virtual(Time now, VirtualSweep sweep) {
@@ -121,7 +132,9 @@ void Avoider::add_virtual(Time now, VirtualSweep sweep) {
 
 void Avoider::add_place(Time now, Time stamp, const Pose2& map_from_robot, const Pose2& raw_from_robot, double mass) {
   const Time taken = local_time_.receive_handed_on("belief", now, stamp);
-  inputs_.believe(taken, map_from_robot * inverse(unbroken_.odom_from_raw(taken) * raw_from_robot), mass);
+  const Pose2 map_from_odom = map_from_robot * inverse(unbroken_.odom_from_raw(taken) * raw_from_robot);
+  inputs_.believe(taken, map_from_odom, mass);
+  surroundings_.felt().believe(map_from_odom, mass);
 }
 
 void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
@@ -182,6 +195,10 @@ bool Avoider::cap_by_touched_things(Time now, const Pose2& odom_from_base, Speed
   bool is_near = false;
   for (const Point2& thing : surroundings_.memory().touched_things(now)) {
     if (limits_.gap_to(inverse(odom_from_base) * thing) >= params_.touch.near) continue;
+    cap.lower(params_.touch.feels_its_way, to_text(ReasonWord::felt_thing_near));
+    is_near = true;
+  }
+  if (surroundings_.felt().gap(odom_from_base, limits_) < params_.touch.felt_near) {
     cap.lower(params_.touch.feels_its_way, to_text(ReasonWord::felt_thing_near));
     is_near = true;
   }

@@ -35,7 +35,8 @@ SurroundingsParams AvoiderParams::surroundings() const {
           .surprise = people.surprise,
           .seen_for = seen_for,
           .has_lasers = has_lasers,
-          .blind_to_people = blind_to_people};
+          .blind_to_people = blind_to_people,
+          .felt = {.remembers = remembers_touch}};
 }
 
 VirtualObstaclesParams AvoiderParams::virtual_obstacles() const {

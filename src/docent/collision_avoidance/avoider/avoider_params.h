@@ -30,6 +30,8 @@ struct ApproachParams {
 struct TouchParams {
   double near = 1.0;            ///< [m] from the body to where a thing touched it that no sensor sees
   double feels_its_way = 0.15;  ///< [m/s] near it: the thing is larger than the place, and only touch tells how much
+  double drives_into = 0.05;    ///< [m/s] towards what touches it: then it has not come by itself
+  double felt_near = 0.6;       ///< [m] from the body to what it has felt earlier, likewise slow
   double dent = 0.03;           ///< [m] into the body: what touches it there is pressed, deeper it is not there
   double brakes_for = 0.2;      ///< [s] after a touch, at once and whatever was chosen
 };
@@ -67,6 +69,7 @@ struct AvoiderParams {
   bool has_tactile = false;
   bool has_lasers = true;        ///< false: the ring of sonars tells what is free
   bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
+  bool remembers_touch = true;   ///< false: likewise: what was touched is forgotten
   bool watches = true;           ///< false: likewise: takes every sensor and belief for well
   motion_models::UnbrokenOdometryParams odometry{};  ///< its base is the body's
 

@@ -44,6 +44,14 @@ void Surroundings::add_sensed(std::vector<Obstacle>& obstacles, const Pose2& bas
   }
 }
 
+void Surroundings::add_felt(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, double reach) const {
+  for (Point2 at : felt_.outlines(odom_from_base, reach)) {
+    if (limits_.gap_to(at) < 0.0) at = limits_.edge(Angle::radians(std::atan2(at.y, at.x)));
+    obstacles.push_back({.at = at, .margin = params_.real_margin});
+    obstacles.back().is_low = true;
+  }
+}
+
 void Surroundings::add_unseen(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, Time when) const {
   const double margin = params_.real_margin;
   for (const double bearing : memory_.blind_directions()) {
@@ -63,6 +71,7 @@ std::vector<Obstacle> Surroundings::obstacles(const Pose2& odom_from_base, Time 
   const Pose2 base_from_odom = inverse(odom_from_base);
   if (!params_.blind_to_people) {
     add_sensed(result, base_from_odom, when, speed, caution);
+    add_felt(result, odom_from_base, reach(speed));
     if (params_.has_lasers) add_unseen(result, odom_from_base, when);
   }
   virtual_.add_to(result, base_from_odom, reach(speed));

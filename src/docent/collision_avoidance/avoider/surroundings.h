@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "docent/collision_avoidance/avoider/felt_places.h"
 #include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/virtual_obstacles.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
@@ -23,6 +24,7 @@ struct SurroundingsParams {
   double least_steps_in = 2.5;   ///< [m] who stands farther away cannot step into the way of a slow robot in time
   double outline_step = 0.02;    ///< [m] between the places where somebody who cannot be inside the robot may be
   double farthest_inside = 0.6;  ///< [m] that motion foreseen for one latency may lead into the body
+  FeltPlacesParams felt{};       ///< what only touch finds
   double blind_inset = 0.001;    ///< [m] within the margin lies what a blind laser may hide
 };
 
@@ -30,7 +32,12 @@ struct SurroundingsParams {
 class Surroundings {
  public:
   Surroundings(const BaseLimits& limits, const SurroundingsParams& params, const VirtualObstaclesParams& virtual_params)
-      : limits_{limits}, params_{params}, seen_{{.seen_for = params.seen_for}}, virtual_{virtual_params} {}
+      : limits_{limits},
+        params_{params},
+        memory_{memory_of(params)},
+        seen_{{.seen_for = params.seen_for}},
+        felt_{params.felt},
+        virtual_{virtual_params} {}
 
   /// @param odom_from_base  pose at the sweep's stamp
   void add_sweep(std::size_t sensor, SensorSweep sweep, const Pose2& odom_from_base) {
@@ -39,6 +46,8 @@ class Surroundings {
   }
   [[nodiscard]] ObstacleMemory& memory() { return memory_; }
   [[nodiscard]] const ObstacleMemory& memory() const { return memory_; }
+  [[nodiscard]] FeltPlaces& felt() { return felt_; }
+  [[nodiscard]] const FeltPlaces& felt() const { return felt_; }
   [[nodiscard]] UnmappedPlaces& unmapped() { return unmapped_; }
   [[nodiscard]] const UnmappedPlaces& unmapped() const { return unmapped_; }
   [[nodiscard]] VirtualObstacles& virtual_obstacles() { return virtual_; }
@@ -52,11 +61,17 @@ class Surroundings {
                                                 const PeopleCaution& caution) const;
 
  private:
+  static ObstacleMemoryParams memory_of(const SurroundingsParams& params) {
+    ObstacleMemoryParams memory;
+    if (!params.felt.remembers) memory.touch_memory = memory.seen_touch;
+    return memory;
+  }
   [[nodiscard]] double until_it_stands(double speed) const { return limits_.hold() + speed / limits_.deceleration; }
   /// [m] from the robot: who stands farther away cannot step into its way in time.
   [[nodiscard]] double steps_in(double speed) const;
   void add_sensed(std::vector<Obstacle>& obstacles, const Pose2& base_from_odom, Time when, double speed,
                   const PeopleCaution& caution) const;
+  void add_felt(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, double reach) const;
   void add_unseen(std::vector<Obstacle>& obstacles, const Pose2& odom_from_base, Time when) const;
   /// Nothing is inside the robot: whoever was foreseen there has come up to its outline, on the way that they came.
   [[nodiscard]] Point2 stopped_at_outline(Point2 at, Point2 velocity) const;
@@ -65,6 +80,7 @@ class Surroundings {
   SurroundingsParams params_;
   ObstacleMemory memory_;
   SeenPlaces seen_;
+  FeltPlaces felt_;
   UnmappedPlaces unmapped_;
   VirtualObstacles virtual_;
 };

@@ -243,7 +243,7 @@ void ObstacleMemory::add_lines(const std::string& source, Time stamp, double lif
   }
 }
 
-void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base) {
+TouchedBy ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base) {
   const Point2 in_odom = odom_from_base * in_base;
   bool is_seen = false;
   bool is_somebody = false;
@@ -262,6 +262,7 @@ void ObstacleMemory::add_touch(Time stamp, Point2 in_base, const Pose2& odom_fro
            (touch.point.low == low && distance(touch.point.in_odom, in_odom) < params_.same_touch);
   });
   touches_.push_back({{.in_odom = in_odom, .seen = stamp, .low = low}, stamp + seconds(memory)});
+  return is_seen ? TouchedBy::seen : is_somebody ? TouchedBy::somebody : TouchedBy::thing;
 }
 
 void ObstacleMemory::stand(Point2 in_odom, double radius) {

@@ -53,6 +53,9 @@ struct ObstaclePoint {
   bool low = false;       ///< met by a sonar, an infrared sensor or touch, and by no laser: a thing, that stays
 };
 
+/// Who touched the body: what a laser sees, perhaps somebody whom a laser sees near, or a thing that no laser sees.
+enum class TouchedBy { seen, somebody, thing };
+
 /// How long and how far what was met counts.
 struct ObstacleMemoryParams {
   MovingObjectsParams moving{};
@@ -119,7 +122,8 @@ class ObstacleMemory {
   /// The body was touched at `in_base` (on its outline). Counts for a moment where a laser sees who touches: whether
   /// they are still there, the laser tells; as long as points live where a laser sees somebody near; for a minute where
   /// none does.
-  void add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
+  /// @returns who touched, as far as the lasers tell
+  TouchedBy add_touch(Time stamp, Point2 in_base, const Pose2& odom_from_base);
   /// The body stands here, odometry's frame: nothing that touched it is within `radius` [m]. Wheels that slip against a
   /// thing carry the odometry through it.
   void stand(Point2 in_odom, double radius);

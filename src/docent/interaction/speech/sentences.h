@@ -26,8 +26,10 @@ enum class Sentence {
   explaining,    ///< talks about {title}
   asking,        ///< more about {title}, or next?
   going_home,
-  battery_low,  ///< must charge, and is not at the charger yet
-  charging,     ///< at the charger, for about {title} minutes more
+  battery_low,         ///< must charge, and is not at the charger yet
+  charging,            ///< at the charger, for about {title} minutes more
+  charger_occupied,    ///< must charge, and something stands on its charger; its charge is {title} %
+  charger_no_current,  ///< must charge, and its charger gives no current; likewise
   // spoken
   announcement,    ///< when it sets out for {title}
   let_me_through,  ///< when people block the way: politely (happy), pleading (sad), angrily
@@ -35,6 +37,8 @@ enum class Sentence {
   home_again,      ///< on arrival at home
   must_charge,     ///< when a visit or a tour is broken off for the battery
   at_charger,      ///< on arrival at the charger
+  free_charger,    ///< before a charger on which something stands: to whoever can make room, or call the staff
+  mend_charger,    ///< at a charger that gives no current: to whoever can call the staff
   stay_behind,     ///< to people who walk ahead of the robot or crowd round it: they shall walk behind it
   greeting,        ///< when a tour begins
   next_exhibit,    ///< in a tour: {title} comes next

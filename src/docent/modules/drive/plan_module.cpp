@@ -63,7 +63,8 @@ docent_msgs::GoalState message_of(const planning::Pursuit& report, const std::st
           report.blocked_s,
           report.reason,
           planning::to_text(report.detour),
-          report.detour_extra};
+          report.detour_extra,
+          report.is_occupied};
 }
 
 nav_msgs::Path message_of(const std::vector<Point2>& way, Time now) {

@@ -1,5 +1,7 @@
 #include "docent/modules/guide/executive_module.h"
 
+#include <cmath>
+
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
@@ -62,9 +64,9 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
-      executive_.goal_report(
-          {state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s, state.reason, state.detour},
-          bus_.now());
+      executive_.goal_report({state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s,
+                              state.reason, state.detour, state.occupied},
+                             bus_.now());
       flush();
     });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& state) {
@@ -80,6 +82,12 @@ class ExecutiveModule final : public Module {
       executive_.obstacle_report({state.path_blocked, state.unmapped_obstacle,
                                   state.path_blocked ? state.reason : std::string{}, state.low_obstacle},
                                  bus_.now());
+    });
+    bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& seen) {
+      std::vector<task_control::PersonSeen> people;
+      for (const docent_msgs::Person& person : seen.people)
+        people.push_back({person.id, {person.x, person.y}, std::hypot(person.vx, person.vy)});
+      executive_.people_report(people, bus_.now());
     });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const auto& battery) { executive_.charging_report(is_charging(battery)); });

@@ -249,6 +249,7 @@ Result<std::unique_ptr<Module>> make_mission(const ModuleContext& context) {
   auto params = context.config.section<MissionModuleParams>("mission");
   if (!params) return tl::unexpected<Error>(params.error());
   context.config.amend(params->schedule);
+  context.config.amend(params->staff);
   context.config.amend(params->golog);
   auto store = task_control::MissionStore::open(
       context.state / "mission.sqlite", deployment_name(context.seed, context.bus.now()), !context.virtual_time);

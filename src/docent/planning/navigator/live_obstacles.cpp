@@ -39,6 +39,20 @@ void LiveObstacles::take_patch(const LivePatch& patch) {
                           patch.low.row + static_cast<int>(patch.rows) - 1});
 }
 
+bool LiveObstacles::stands_within(Point2 in_map, double radius) const {
+  const CellIndex low = map_.frame.cell_at(in_map - Point2{radius, radius});
+  const CellIndex high = map_.frame.cell_at(in_map + Point2{radius, radius});
+  for (int row = low.row; row <= high.row; ++row) {
+    for (int column = low.column; column <= high.column; ++column) {
+      const CellIndex cell{column, row};
+      if (map_.frame.holds(cell) && standing_[map_.frame.index(cell)] &&
+          distance(map_.frame.centre(cell), in_map) <= radius)
+        return true;
+    }
+  }
+  return false;
+}
+
 std::optional<CellBox> LiveObstacles::take_changes() { return std::exchange(changed_, std::nullopt); }
 
 void LiveObstacles::take(std::size_t index, std::int8_t live) {

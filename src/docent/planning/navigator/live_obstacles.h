@@ -37,6 +37,8 @@ class LiveObstacles {
   [[nodiscard]] const std::vector<bool>& standing() const { return standing_; }
   /// [rows * columns] those of them that have stood there for long.
   [[nodiscard]] const std::vector<bool>& settled() const { return settled_; }
+  /// Something stands within `radius` [m] of the place.
+  [[nodiscard]] bool stands_within(Point2 in_map, double radius) const;
   /// Where both may have changed since this was asked last; nullopt: nowhere.
   [[nodiscard]] std::optional<CellBox> take_changes();
 

@@ -86,6 +86,15 @@ TEST_F(LiveObstaclesTest, AnEmptyRectangleKeepsTheOrderAndAFaultyOneDoesNot) {
   EXPECT_TRUE(stands({2, 2}));
 }
 
+TEST_F(LiveObstaclesTest, WhatStandsNearAPlaceIsFound) {
+  say_whole(1.0);
+  say_cell({3, 2}, 1, 1.0);  // its middle lies at (0.525, 0.375)
+  EXPECT_TRUE(live_.stands_within({0.4, 0.4}, 0.2));
+  EXPECT_FALSE(live_.stands_within({0.2, 0.4}, 0.2));
+  EXPECT_FALSE(live_.stands_within({0.3, 0.07}, 0.1)) << "a wall of the map is no news";
+  EXPECT_FALSE(live_.stands_within({-50.0, 9.0}, 0.3));
+}
+
 TEST_F(LiveObstaclesTest, TellsOnceWhereTheyMayHaveChanged) {
   EXPECT_FALSE(live_.take_changes().has_value());
   say_whole(1.0);

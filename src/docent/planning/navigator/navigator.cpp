@@ -16,6 +16,7 @@ constexpr Duration kLedByHandFor = std::chrono::seconds{3};  ///< until the avoi
 Navigator::Navigator(const OccupancyGrid& map, const DrivableGround& ground, std::vector<Pose2> base_from_scanner,
                      const NavigatorParams& params)
     : goal_tolerance_{params.goal_tolerance},
+      robot_radius_{params.route.robot_radius},
       route_{map, ground.hazards, ground.area, params.route},
       coast_{map, route_, params.coastal},
       pursuit_{params.pursuit},
@@ -68,6 +69,8 @@ Orders Navigator::step(const Whereabouts& where, Time now) {
   Orders orders;
   orders.goal_id = pursuit_.goal().id;
   orders.report = pursuit_.step(where.is_known(now) ? where.map_from_base() : std::nullopt, route_, now);
+  orders.report.is_occupied =
+      has_goal() && live_.stands_within(pursuit_.goal().map_from_goal.position(), robot_radius_);
   orders.aim = aim_of(orders.report, pursuit_.goal(), where.map_from_odom);
   if (where.odom_from_base) orders.look = look_for(orders.aim, *where.odom_from_base);
   if (steps_++ % kStepsAPath == 0) orders.path = news_of_path(orders.report, where);

@@ -67,6 +67,7 @@ class Navigator {
   [[nodiscard]] std::optional<std::vector<Point2>> news_of_path(const Pursuit& pursuit, const Whereabouts& where);
 
   double goal_tolerance_;  ///< [m]
+  double robot_radius_;    ///< [m]
   RoutePlanner route_;
   CoastGuide coast_;
   GoalPursuit pursuit_;

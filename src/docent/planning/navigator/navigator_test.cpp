@@ -205,6 +205,19 @@ TEST_F(NavigatorTest, ANewGoalIsPlannedOverWhatStandsThereAlready) {
   EXPECT_EQ(last.report.detour, Detour::none) << "this is the way that is meant";
 }
 
+TEST_F(NavigatorTest, TellsWhenSomethingStandsOnItsGoal) {
+  say_live_map(true);  // in the middle door, at (6, 6)
+  (void)want("g1", {9.0, 6.0});
+  run(1.0);
+  EXPECT_FALSE(last.report.is_occupied);
+  (void)want("g2", {6.1, 6.0});
+  run(1.0);
+  EXPECT_TRUE(last.report.is_occupied);
+  say_live_map(false);
+  run(1.0);
+  EXPECT_FALSE(last.report.is_occupied);
+}
+
 TEST_F(NavigatorTest, HazardsAndTheBorderAreClosed) {
   DrivableGround ground;
   ground.hazards = {{{5.5, 4.5}, {6.5, 4.5}, {6.5, 7.5}, {5.5, 7.5}}};  // in the middle door

@@ -54,6 +54,7 @@ struct Pursuit {
   double blocked_s = 0.0;
   Detour detour = Detour::none;
   double detour_extra = 0.0;  ///< [m]
+  bool is_occupied = false;   ///< something that is not in the map stands where the robot would stand
 };
 
 /// Follows one goal after another: drive there along the route, turn to the heading, stay. Deterministic.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace docent::simulator {
 
@@ -24,12 +25,23 @@ class Battery {
   [[nodiscard]] bool is_charging() const { return is_charging_; }
   [[nodiscard]] double voltage() const { return 22.0 + 4.0 * charge_; }  ///< [V]
   [[nodiscard]] double current() const { return -power_ / voltage(); }   ///< [A], negative: discharging
+  /// What its driver says of charging from now on.
+  enum class Word { truth, charges, nothing };
+  void say(Word word) { word_ = word; }
+  /// As sensor_msgs/BatteryState has it.
+  [[nodiscard]] std::uint8_t supply_status() const {
+    constexpr std::uint8_t kUnknown = 0, kCharging = 1, kDischarging = 2, kFull = 4;
+    if (word_ == Word::nothing) return kUnknown;
+    if (word_ == Word::charges) return kCharging;
+    return !is_charging_ ? kDischarging : charge_ >= 1.0 ? kFull : kCharging;
+  }
   void set_charge(double charge) { charge_ = std::clamp(charge, 0.0, 1.0); }
 
  private:
   double charge_ = 1.0;
   double power_ = 0.0;
   bool is_charging_ = false;
+  Word word_ = Word::truth;
 };
 
 }  // namespace docent::simulator

@@ -91,10 +91,12 @@ class EventReader {
     if (kind == "odometry_jump") return odometry_jump(body);
     if (kind == "lie") return scanner_lie(body);
     if (kind == "transport") return read_transport(file_, body);
-    fault(kind_at_,
-          "unknown kind '" + kind +
-              "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-              "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, transport)");
+    if (kind == "charger") return read_charger(file_, body);
+    fault(
+        kind_at_,
+        "unknown kind '" + kind +
+            "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
+            "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {

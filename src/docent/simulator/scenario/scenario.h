@@ -10,6 +10,7 @@
 #include "docent/base/result.h"
 #include "docent/geometry/pose2.h"
 #include "docent/simulator/scenario/build_errors.h"
+#include "docent/simulator/scenario/charger_event.h"
 #include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -164,7 +165,8 @@ struct Moment {
 struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
-               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport>
+               LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport,
+               ChargerFault>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -178,7 +180,8 @@ struct Scenario {
 
 /// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
 /// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
-/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport. With `during: PHASE` it waits for that
+/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger.
+/// With `during: PHASE` it waits for that
 /// phase of the mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);
 [[nodiscard]] Result<Scenario> parse_scenario(const std::string& text, const std::string& name);

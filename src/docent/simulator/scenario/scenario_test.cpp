@@ -24,11 +24,12 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   - {at: 105, pushers: {count: 5, at: [6, 7], heading: -90, for: 120}}
   - {at: 107, request: {target: airbus, viewpoint: 3, source: web}}
   - {at: 110, runners: {count: 3, at: [6, 7], within: 2.5}}
+  - {at: 120, charger: {kind: claims, for: 90}}
 )",
                                        "s.yaml");
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& events = scenario->events;
-  ASSERT_EQ(events.size(), 16U);
+  ASSERT_EQ(events.size(), 17U);
   const auto& kidnap = std::get<Kidnap>(events[0].what);
   ASSERT_TRUE(kidnap.to);
   EXPECT_DOUBLE_EQ(kidnap.to->y, 4.5);
@@ -57,10 +58,12 @@ TEST(Scenario, ReadsEveryKindOfEventInOrderOfTime) {
   EXPECT_FALSE(std::get<Visitors>(events[6].what).heeds);
   EXPECT_DOUBLE_EQ(*std::get<Visitors>(events[11].what).heeds, 0.5);
   EXPECT_NEAR(std::get<Pushers>(events[12].what).heading, -1.5708, 1e-4);
+  EXPECT_EQ(std::get<ChargerFault>(events[15].what).kind, ChargerFault::Kind::claims);
+  EXPECT_DOUBLE_EQ(std::get<ChargerFault>(events[15].what).duration, 90.0);
   EXPECT_EQ(std::get<Pushers>(events[12].what).count, 5);
   EXPECT_DOUBLE_EQ(std::get<Runners>(events[14].what).within, 2.5);
-  EXPECT_EQ(std::get<Kill>(events[15].what).signal, "stop");
-  EXPECT_DOUBLE_EQ(events[15].at, 300.0);
+  EXPECT_EQ(std::get<Kill>(events[16].what).signal, "stop");
+  EXPECT_DOUBLE_EQ(events[16].at, 300.0);
 }
 
 TEST(Scenario, ReadsAWayAndAReach) {
@@ -121,7 +124,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
      "visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, "
-     "odometry_jump, lie, transport)"},
+     "odometry_jump, lie, transport, charger)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, shift, to, turn)"},

@@ -7,6 +7,7 @@
 #include "docent/base/result.h"
 #include "docent/base/time.h"
 #include "docent/geometry/pose2.h"
+#include "docent/vocabulary/reason.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::task_control {
@@ -17,20 +18,24 @@ struct DockingParams {
   double move_s = 30.0;            ///< [s] > 0 for one drive of an attempt
   double stand_off_m = 0.6;        ///< [m] > 0: so far from the charger it sets out anew
   double closer_tolerance = 0.08;  ///< [m] > 0 of an attempt: the first arrival may have been too far off
+  double occupied_near_m = 1.5;    ///< [m] > 0 of way from the charger: what holds it up there is on the charger
+  double occupied_after_s = 4.0;   ///< [s] > 0 before a charger on which something stands, until that is believed
+  double occupied_wait_s = 20.0;   ///< [s] > 0 that it then waits: who stands there may go
+  double blocked_s = 8.0;          ///< [s] > 0 without progress that end a drive of an attempt
+  double beside_tolerance = 0.28;  ///< [m] > 0: contacts may reach so far beside what stands there
   template <class V>
   void visit(V& v) {
     v("contact_s", contact_s);
     v("move_s", move_s);
     v("stand_off_m", stand_off_m);
     v("closer_tolerance", closer_tolerance);
+    v("occupied_near_m", occupied_near_m);
+    v("occupied_after_s", occupied_after_s);
+    v("occupied_wait_s", occupied_wait_s);
+    v("blocked_s", blocked_s);
+    v("beside_tolerance", beside_tolerance);
   }
-  [[nodiscard]] Result<void> validate() const {
-    if (!(contact_s > 0.0)) return fail("docking.contact_s must be > 0");
-    if (!(move_s > 0.0)) return fail("docking.move_s must be > 0");
-    if (!(stand_off_m > 0.0)) return fail("docking.stand_off_m must be > 0");
-    if (!(closer_tolerance > 0.0)) return fail("docking.closer_tolerance must be > 0");
-    return {};
-  }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 /// What the battery at the charger says.
@@ -41,13 +46,22 @@ enum class Contact {
   made,
 };
 
-/// From standing at the charger to charging: waits until the battery says that it charges. Where it does not, the robot
-/// comes closer, then sets out anew from before the charger, then from behind it, and at last gives up. A battery that
-/// never says whether it charges is believed to. Deterministic.
+/// What a docking robot knows.
+struct DockingView {
+  Contact contact = Contact::unheard;
+  std::optional<GoalStatus> moved{};  ///< how the drive named by `move` goes; nullopt: nothing is said of it
+  double blocked_s = 0.0;             ///< [s] that this drive makes no progress
+  bool is_occupied = false;           ///< something that is not in the map stands where the robot would stand
+};
+
+/// From before the charger to charging: waits until the battery says that it charges. Where it does not, the robot
+/// comes closer, then sets out anew from before the charger, then from behind it, and at last gives up. Where something
+/// stands on the charger, it waits for that to go, tries again, beside it, and from behind. A battery that never says
+/// whether it charges is believed to, once the robot stands there. Deterministic.
 class Docking {
  public:
-  Docking(const DockingParams& params, Pose2 map_from_charger, Time now)
-      : params_{params}, map_from_charger_{map_from_charger}, since_{now} {}
+  /// @param is_occupied  the robot stands before a charger on which something stands, else at it
+  Docking(const DockingParams& params, Pose2 map_from_charger, bool is_occupied, Time now);
 
   enum class State { under_way, sets_out, docked, failed };
 
@@ -60,15 +74,30 @@ class Docking {
   /// nullopt: the robot stands where it came to.
   [[nodiscard]] std::optional<Move> move() const;
 
-  /// @param moved  what became of the drive named by `move`.
   /// @returns how it stands; sets_out: `move` is another one now.
-  State step(Contact contact, std::optional<GoalStatus> moved, Time now);
+  State step(const DockingView& view, Time now);
+
+  /// Something stands on the charger, as far as it has seen.
+  [[nodiscard]] bool is_occupied() const { return is_occupied_; }
+  /// Why it failed: charger_occupied, charger_no_current (it stood there and the battery did not charge), or
+  /// not_reached.
+  [[nodiscard]] ReasonWord failure() const;
 
  private:
+  struct Step;
+  [[nodiscard]] const Step* now_at() const;  ///< nullptr: all steps are over
+  [[nodiscard]] bool is_over(const Step& step, const DockingView& view, Time now) const;
+  void note(const Step& step, const DockingView& view);
+
   DockingParams params_;
   Pose2 map_from_charger_;
   Time since_;            ///< of the present step
   std::size_t step_ = 0;  ///< of those in docking.cpp
+  bool began_before_;     ///< a charger on which something stands
+  bool is_occupied_;
+  bool stands_there_;   ///< the last drive to the charger arrived
+  bool stood_there_;    ///< one of them did
+  Time last_occupied_;  ///< when something was last seen there
 };
 
 }  // namespace docent::task_control

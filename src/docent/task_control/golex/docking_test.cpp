@@ -24,7 +24,11 @@ class DockingTest : public testing::Test {
       move = before ? before->name : "";
       if (before) moves.insert(before->name);
       const bool arrives = before && moved_s >= drive_s;
-      state = docking.step(contact, arrives ? std::optional{GoalStatus::arrived} : std::nullopt, time());
+      DockingView view{.contact = contact};
+      if (before) view.moved = arrives ? GoalStatus::arrived : is_occupied ? GoalStatus::blocked : GoalStatus::driving;
+      view.blocked_s = view.moved == GoalStatus::blocked ? moved_s : 0.0;
+      view.is_occupied = is_occupied;
+      state = docking.step(view, time());
     }
     return state;
   }
@@ -33,11 +37,18 @@ class DockingTest : public testing::Test {
   }
   [[nodiscard]] Time time() const { return time_from_seconds(now_s); }
 
+  /// It stands before a charger on which something stands.
+  void stand_before() {
+    docking = Docking{{}, kCharger, true, time()};
+    is_occupied = true;
+  }
+
   double now_s = 100.0;
   double moved_s = 0.0;
+  bool is_occupied = false;
   std::string move;
   std::set<std::string> moves;
-  Docking docking{{}, kCharger, time_from_seconds(100.0)};
+  Docking docking{{}, kCharger, false, time_from_seconds(100.0)};
 };
 
 TEST_F(DockingTest, ABatteryThatChargesEndsIt) { EXPECT_EQ(pass(1.0, Contact::made), Docking::State::docked); }
@@ -63,12 +74,91 @@ TEST_F(DockingTest, ThenItSetsOutAnewFromBothSidesAndGivesUp) {
   EXPECT_EQ(pass(300.0, Contact::none), Docking::State::failed);
   EXPECT_EQ(moves, (std::set<std::string>{"closer", "before", "from-before", "behind", "from-behind"}));
   EXPECT_LT(now_s, 100.0 + 4 * 10.5 + 5 * 3.5);
-  EXPECT_EQ(docking.step(Contact::made, std::nullopt, time()), Docking::State::failed) << "what is over stays over";
+  EXPECT_EQ(docking.failure(), ReasonWord::charger_no_current);
+  EXPECT_EQ(docking.step({.contact = Contact::made}, time()), Docking::State::failed) << "what is over stays over";
 }
 
 TEST_F(DockingTest, AMoveThatDoesNotArriveIsGivenUp) {
   EXPECT_EQ(pass(300.0, Contact::none, 1e9), Docking::State::failed);
   EXPECT_LT(now_s, 100.0 + 4 * 10.5 + 5 * 30.5);
+}
+
+TEST_F(DockingTest, BeforeAnOccupiedChargerItWaitsAndTriesOtherWays) {
+  stand_before();
+  EXPECT_EQ(pass(19.0, Contact::none, 1e9), Docking::State::under_way);
+  EXPECT_FALSE(docking.move()) << "it waits for whatever stands there to go";
+  EXPECT_TRUE(docking.is_occupied());
+  EXPECT_EQ(pass(300.0, Contact::none, 1e9), Docking::State::failed);
+  EXPECT_EQ(moves, (std::set<std::string>{"again", "beside", "behind", "from-behind"}));
+  EXPECT_EQ(docking.failure(), ReasonWord::charger_occupied);
+  EXPECT_LT(now_s, 100.0 + 20.5 + 4 * 8.5 + 3 * 0.5) << "no drive in vain lasts long";
+}
+
+TEST_F(DockingTest, ThatItCameNearAnOccupiedChargerIsNoArrival) {
+  stand_before();
+  EXPECT_EQ(pass(300.0, Contact::unknown, 3.0), Docking::State::failed) << "settled half a metre off, without a gauge";
+  EXPECT_EQ(docking.failure(), ReasonWord::charger_occupied);
+}
+
+TEST_F(DockingTest, WhereWhatStoodThereHasGoneItDocksAtOnce) {
+  stand_before();
+  (void)pass(5.0, Contact::none);
+  is_occupied = false;
+  (void)pass(3.0, Contact::none);
+  ASSERT_TRUE(docking.move());
+  EXPECT_EQ(docking.move()->name, "again");
+  EXPECT_EQ(pass(4.0, Contact::none), Docking::State::under_way);
+  EXPECT_EQ(pass(1.0, Contact::made), Docking::State::docked);
+}
+
+TEST_F(DockingTest, BesideWhatStandsThereItTakesTheContactThatItGets) {
+  stand_before();
+  while (move != "beside") (void)pass(0.25, Contact::none, 1e9);
+  EXPECT_GT(docking.move()->position_tolerance, 0.2);
+  EXPECT_EQ(pass(20.0, Contact::made, 1e9), Docking::State::docked);
+}
+
+TEST_F(DockingTest, WhatIsPutOnTheChargerBetweenTwoTriesIsSeen) {
+  (void)pass(11.0, Contact::none);
+  ASSERT_TRUE(docking.move());
+  is_occupied = true;
+  EXPECT_EQ(pass(300.0, Contact::none, 1e9), Docking::State::failed);
+  EXPECT_EQ(docking.failure(), ReasonWord::charger_occupied);
+}
+
+TEST_F(ExecutiveTest, BeforeAThingOnItsChargerItBlowsNoHornAndAsksNobody) {
+  start({{"c", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  executive.charging_report(false);
+  std::set<std::string> drives;
+  for (int i = 0; i < 200 && state.state == TaskStatus::driving; ++i) {
+    executive.obstacle_report({true, true, "person_in_way", false}, time());
+    if (const bool waits = drive->id == "c/drive" && i > 40; !waits)
+      executive.goal_report({drive->id, GoalStatus::blocked, 0.7, 1.0 * i, "no progress", "none", true}, time());
+    collect();
+    pass(1.0);
+    drives.insert(drive->id);
+  }
+  EXPECT_EQ(state.state, TaskStatus::failed);
+  EXPECT_EQ(state.reason, ReasonWord::charger_occupied);
+  EXPECT_TRUE(drives.contains("c/again") && drives.contains("c/behind"));
+  EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::horn), 0);
+  EXPECT_EQ(std::count(rungs.begin(), rungs.end(), Rung::ask), 0);
+  EXPECT_EQ(count("c/call"), 1) << "it says what it needs";
+}
+
+TEST_F(ExecutiveTest, WhoeverWasSeenToWalkToTheChargerIsAsked) {
+  start({{"c", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  for (int i = 0; i < 40; ++i) {
+    const PersonSeen person{7, {3.1, 4.2}, i == 0 ? 0.8 : 0.0};
+    executive.people_report({&person, 1}, time());
+    executive.obstacle_report({true, true, "person_in_way", false}, time());
+    executive.goal_report({drive->id, GoalStatus::blocked, 0.7, 0.25 * i, "no progress", "none", true}, time());
+    collect();
+    pass(0.25);
+  }
+  EXPECT_GT(std::count(rungs.begin(), rungs.end(), Rung::horn), 0);
+  EXPECT_GT(std::count(rungs.begin(), rungs.end(), Rung::ask), 0);
+  EXPECT_EQ(drive->id, "c/drive");
 }
 
 TEST_F(DockingTest, TheStandOffLiesOnTheAxisOfTheCharger) {
@@ -113,7 +203,8 @@ TEST_F(ExecutiveTest, AChargerWithoutContactIsGivenUp) {
     if (drive->id != "c/drive" && state.state == TaskStatus::driving) goal(GoalStatus::arrived);
   }
   EXPECT_EQ(state.state, TaskStatus::failed);
-  EXPECT_EQ(state.reason, ReasonWord::not_reached);
+  EXPECT_EQ(state.reason, ReasonWord::charger_no_current);
+  EXPECT_EQ(count("c/call"), 1);
   EXPECT_TRUE(drives.contains("c/before") && drives.contains("c/behind"));
   EXPECT_EQ(drive->id, "") << "it stays";
 }

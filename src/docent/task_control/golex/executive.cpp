@@ -10,8 +10,6 @@
 namespace docent::task_control {
 namespace {
 
-constexpr Duration kReportLife = std::chrono::seconds{1};  // avoidance and head speak four times a second and more
-
 template <class T>
 bool contains(const std::vector<T>& list, const T& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
@@ -43,8 +41,7 @@ void Executive::resume(Time now) {
       return;
     }
   }
-  if (under_way(DirectiveKind::dock) != nullptr)
-    docking_.emplace(params_.docking, memory_.task.order.map_from_base, now);
+  if (under_way(DirectiveKind::dock) != nullptr) begin_docking(now);
   send_drive();
   report();
 }
@@ -173,7 +170,7 @@ void Executive::begin(const Directive& directive, Time now) {
       send_drive();
       break;
     case DirectiveKind::dock:
-      docking_.emplace(params_.docking, memory_.task.order.map_from_base, now);
+      begin_docking(now);
       break;
     case DirectiveKind::say:
       if (text_of(directive, memory_.task, mood()).empty()) {
@@ -222,21 +219,6 @@ void Executive::finish(bool is_success, const Reason& reason) {
     actions_.music = false;
   }
   report();
-}
-
-DriveOrder Executive::drive_order() const {
-  const TaskOrder& order = memory_.task.order;
-  if (under_way(DirectiveKind::relocalize) != nullptr) return {own_id("relocalize"), {}, true};
-  if (const auto move = docking_ ? docking_->move() : std::nullopt)
-    return {own_id(move->name), move->map_from_base, false, move->position_tolerance};
-  const auto* action = decomposition_.find(order.kind.text());
-  if (memory_.phase == Phase::idle || memory_.phase == Phase::failed || action == nullptr) return {};
-  // After its drive it stays at the place: the goal remains the last one that was begun.
-  const std::size_t begun = memory_.phase == Phase::done ? action->size() : static_cast<std::size_t>(memory_.item) + 1;
-  const Directive* drive = last_drive(*action, begun);
-  if (drive == nullptr) return {};
-  const double tolerance = drive->argument == "charger" ? params_.charger_tolerance : DriveOrder{}.position_tolerance;
-  return {own_id(drive->name), order.map_from_base, false, tolerance};
 }
 
 void Executive::say(const std::string& name, const std::string& text, Mood mood) {
@@ -335,60 +317,6 @@ void Executive::arrive(const Directive& directive, Time now) {
   end(directive, now);
 }
 
-void Executive::watch_drive(Time now) {
-  const Directive* driven = under_way(DirectiveKind::drive);
-  if (driven == nullptr) return;
-  if (now - memory_.drive_began > seconds(params_.max_drive_s)) {
-    finish(false, ReasonWord::took_too_long);
-  } else if (goal_.id == own_id(driven->name)) {
-    climb_ladder(now);
-  }
-}
-
-void Executive::obstacle_report(const ObstacleReport& report, Time now) {
-  obstacle_ = report;
-  obstacle_time_ = now;
-}
-
-void Executive::mood_report(Mood mood, Time now) {
-  shown_mood_ = mood;
-  shown_at_ = now;
-}
-
-void Executive::climb_ladder(Time now) {
-  if (now - obstacle_time_ > kReportLife) obstacle_ = {};
-  const bool is_unreachable = goal_.state == GoalStatus::unreachable;
-  const LadderView view{obstacle_.is_hindered,
-                        obstacle_.is_unmapped,
-                        is_unreachable,
-                        goal_.blocked_s,
-                        planning::detour_of(goal_.detour),
-                        obstacle_.reason.empty() ? goal_.reason : obstacle_.reason,
-                        obstacle_.is_thing,
-                        under_way(DirectiveKind::drive) != nullptr && approach_.is_in_vain(now)};
-  auto steps = ladder_.step(view, now);
-  bool gives_up = false;
-  for (const LadderStep& step : steps) {
-    if (step.rung == Rung::ask) ask_for_way(now, step.count);
-    gives_up = gives_up || step.rung == Rung::give_up;
-  }
-  actions_.reactions_of = goal_.id;
-  actions_.reactions.insert(actions_.reactions.end(), steps.begin(), steps.end());
-  // A robot that does not know where it is has nothing else to choose.
-  if (gives_up && under_way(DirectiveKind::drive) != nullptr)
-    finish(false, is_unreachable ? ReasonWord::no_way : ReasonWord::way_blocked);
-}
-
-void Executive::ask_for_way(Time now, int count) {
-  const bool is_shown = shown_at_ != Time{} && now - shown_at_ <= kReportLife;
-  const Mood mood = is_shown ? shown_mood_ : count == 1 ? Mood::neutral : Mood::sad;
-  // The name carries the time, so that a restarted executive does not repeat an id that was spoken already.
-  say("please-" + std::to_string(std::max<std::int64_t>(0, (now - memory_.item_began).count() / 1000000)),
-      words_for_way(memory_.task, mood, count), mood);
-  actions_.happenings.push_back(
-      {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
-}
-
 void Executive::speech_report(const SpeechReport& report, Time now) {
   const Directive* spoken = under_way(DirectiveKind::say);
   if (spoken == nullptr || report.id != own_id(spoken->name)) return;
@@ -407,15 +335,6 @@ void Executive::watch_speech(const Directive& directive, Time now) {
     if (!is_over && (!speech_sent_ || now - *speech_sent_ >= seconds(params_.resend_s))) send_speech(directive, now);
   }
   if (is_over) end(directive, now);
-}
-
-void Executive::watch_docking(const Directive& directive, Time now) {
-  const auto move = docking_->move();
-  const bool is_told = move && goal_.id == own_id(move->name);
-  const auto state = docking_->step(contact_, is_told ? goal_.state : std::nullopt, now);
-  if (state == Docking::State::docked) return end(directive, now);
-  if (state == Docking::State::failed) return finish(false, ReasonWord::not_reached);
-  if (state == Docking::State::sets_out) send_drive();
 }
 
 void Executive::watch_wait(const Directive& directive, Time now) {

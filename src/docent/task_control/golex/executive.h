@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "docent/task_control/golex/docking.h"
 #include "docent/task_control/golex/executive_params.h"
 #include "docent/task_control/golex/executive_task.h"
+#include "docent/task_control/golex/somebody_there.h"
 #include "docent/task_control/reaction_ladder/reaction_ladder.h"
 #include "docent/task_control/tour_scheduler/programme.h"
 #include "docent/vocabulary/reason.h"
@@ -53,6 +55,7 @@ struct GoalReport {
   double blocked_s = 0.0;  ///< without progress
   std::string reason;      ///< in English, for logs
   std::string detour;
+  bool is_occupied = false;  ///< something that is not in the map stands where the robot would stand
 };
 /// What the collision avoidance says of the way ahead; counts for a second, for who is silent may be dead.
 struct ObstacleReport {
@@ -112,6 +115,8 @@ class Executive {
   }
   /// The mood that the face shows: so the robot asks for the way. Counts for a second, then its own reckoning.
   void mood_report(Mood mood, Time now);
+  /// All who are followed now.
+  void people_report(std::span<const PersonSeen> people, Time now) { somebody_.see(people, now); }
   void choose(const std::string& question_id, std::optional<Answer> option, Time now);
   /// Several times a second.
   void tick(Time now);
@@ -163,7 +168,14 @@ class Executive {
   void watch_drive(Time now);
   void climb_ladder(Time now);
   void watch_speech(const Directive& directive, Time now);
+  /// The next item docks.
+  [[nodiscard]] bool docks_next() const;
+  /// What holds it up on its way to the charger stands where it would charge.
+  [[nodiscard]] bool is_before_occupied_charger() const;
+  void begin_docking(Time now);
   void watch_docking(const Directive& directive, Time now);
+  /// Ends the task, with a word to whoever can help.
+  void fail_to_charge(ReasonWord why);
   void watch_wait(const Directive& directive, Time now);
   void arrive(const Directive& directive, Time now);
   void ask_for_way(Time now, int count);
@@ -185,6 +197,7 @@ class Executive {
   ReactionLadder ladder_;
   ApproachWatch approach_{{}, {}};
   std::optional<Docking> docking_;  ///< while it docks
+  SomebodyThere somebody_;  ///< at the charger
   Contact contact_ = Contact::unheard;
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};

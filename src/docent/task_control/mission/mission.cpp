@@ -17,7 +17,11 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
       localization_changed_{now},
       lost_since_{now},
       battery_{params.drain_per_s, params.charge_per_s},
+      staff_{params.staff},
+      charge_plan_{params.charging},
       must_charge_{memory.must_charge} {
+  charge_plan_.demand().restore(memory.lessons);
+  std::erase_if(memory.lessons, [](const LessonRow& row) { return row.key.kind == LessonKind::demand; });
   scheduler_.times().restore(memory.lessons);
   conditions_.takes_points = planner_->serves_points();
   // What is under way goes on under its old task id, so that an executive that works on it is not disturbed.
@@ -91,8 +95,13 @@ void Mission::report(const std::string& task_id, std::optional<TaskStatus> state
 void Mission::note_rest(TaskKind kind, bool is_done, const Reason& reason, Time now) {
   const bool is_home = kind == TaskKind::home;
   is_resting_ = is_done && is_home;
+  backs_off_ = backs_off_ && !is_home;
+  if (!is_home && is_done) staff_.docked();
+  if (!is_home && !is_done) staff_.failed(reason);
   // At the charger the battery has a moment to say that it charges.
-  if (!is_resting_) home_not_before_ = now + seconds(is_done ? params_.contact_s : params_.home_retry_s);
+  const double retry_s = is_home ? params_.home_retry_s : staff_.retry_s(params_.home_retry_s);
+  const bool is_at_rest = is_done && !staff_.has_no_current();
+  if (!is_resting_) home_not_before_ = now + seconds(is_at_rest ? params_.contact_s : retry_s);
   if (!is_done && !is_home && spare(now) >= 0.0) must_charge_ = false;  // people stand there: it rather serves
   const EventKind arrival = is_home ? EventKind::home : EventKind::charger;
   const EventKind failure = is_home ? EventKind::home_failed : EventKind::charger_failed;
@@ -118,7 +127,12 @@ void Mission::battery(double charge, std::optional<bool> is_charging, Time now) 
   decide(now);
 }
 
-void Mission::tick(Time now) { decide(now); }
+void Mission::tick(Time now) {
+  const SchedulerState& schedule = scheduler_.state();
+  charge_plan_.demand().observe(charge_plan_.hour(), schedule.visit || schedule.tour || scheduler_.is_anything_due(now),
+                                now);
+  decide(now);
+}
 
 bool Mission::is_lost(Time now) const {
   return !is_localized_ && now - localization_changed_ >= seconds(params_.lost_after_s);
@@ -134,7 +148,9 @@ Pose2 Mission::resting_place() const {
 }
 
 double Mission::enough_to_serve() const {
-  return std::min(params_.battery_full, params_.battery_low + params_.battery_gain);
+  const Waiting waiting = waiting_on(scheduler_.state().board);
+  return std::min(params_.battery_full,
+                  params_.battery_low + charge_plan_.gain_for(waiting, params_.battery_gain, battery_.drain_per_s()));
 }
 
 double Mission::spare(Time now) const {
@@ -161,7 +177,22 @@ bool Mission::is_at_charger() const {
   return charger && distance(position(), charger->position()) <= params_.at_charger_m;
 }
 
-bool Mission::has_contact(Time now) const { return battery_.is_charging(now).value_or(is_at_charger()); }
+bool Mission::has_contact(Time now) const {
+  return battery_.is_charging(now).value_or(is_at_charger()) && !staff_.has_no_current();
+}
+
+Reason Mission::charger_trouble() const {
+  const bool is_now = activity_ == Activity::charge && task_reason_.word() == ReasonWord::charger_occupied;
+  const Reason& why = is_now ? task_reason_ : staff_.trouble();
+  const bool is_of_charger = why.word() == ReasonWord::charger_occupied || why.word() == ReasonWord::charger_no_current;
+  return is_of_charger ? why : Reason{};
+}
+
+std::string Mission::staff_call(Time now) const {
+  const std::string why = staff_.told();
+  const auto charge = battery_.charge(now);
+  return why.empty() || !charge ? why : std::to_string(std::lround(100.0 * *charge)) + " % left, " + why;
+}
 
 void Mission::watch_battery(Time now) {
   if (!is_at_charger()) battery_.is_away_from_charger(now);
@@ -176,7 +207,17 @@ void Mission::watch_battery(Time now) {
     is_resting_ = false;
     scheduler_.note({EventKind::battery_low, "", "", *charge});
   }
-  if (scheduler_.programme().charger && *charge < params_.battery_full - params_.battery_gain) tops_up_ = true;
+  if (!scheduler_.programme().charger) return;
+  if (*charge < params_.battery_full - charge_plan_.missing_in_gap(params_.battery_gain)) tops_up_ = true;
+  const bool is_there = is_at_charger() && battery_.is_charging(now).value_or(true) && !battery_.is_silent(now);
+  const bool was_in_vain = staff_.has_no_current();
+  if (auto call = staff_.watch(*charge, is_there, *charge >= params_.battery_full, now))
+    scheduler_.note(std::move(*call));
+  if (staff_.has_no_current() && !was_in_vain) {
+    backs_off_ = staff_.failures() == 1;
+    home_not_before_ = now + seconds(staff_.retry_s(params_.home_retry_s));
+    scheduler_.note({EventKind::charger_failed, "", to_text(ReasonWord::charger_no_current)});
+  }
 }
 
 Point2 Mission::position() const { return position_.value_or(scheduler_.programme().home.position()); }
@@ -236,7 +277,8 @@ Situation Mission::situation(Time now) const {
   seen.is_charging = is_at_charger() && has_contact(now);
   seen.is_charged = !charges() || (seen.is_anything_due && seen.charge.value_or(1.0) >= enough_to_serve());
   seen.has_charger = scheduler_.programme().charger.has_value();
-  seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon;
+  seen.is_low_soon = now >= home_not_before_ && battery_.charge(now).value_or(1.0) < params_.battery_soon &&
+                     charge_plan_.may_charge_before(waiting_on(schedule.board));
   seen.must_charge = must_charge_;
   seen.charges = charges();
   seen.may_mingle = params_.mingles && is_resting_ && has_company_ && seen.is_open &&
@@ -287,7 +329,9 @@ MissionSummary Mission::summary(Time now) {
     summary.exhibit_id = summary.agenda.front();
   }
   summary.needs_charge = must_charge_;
+  summary.charger_trouble = charger_trouble();
   if (const auto charge = battery_.charge(now); charge && charges()) {
+    summary.charge_percent = static_cast<int>(std::lround(100.0 * *charge));
     const bool is_awaited = scheduler_.is_anything_due(now);
     const double missing = (is_awaited ? enough_to_serve() : params_.battery_full) - *charge;
     summary.charging_min = 5 * static_cast<int>(std::ceil(std::max(0.0, missing) / battery_.charge_per_s() / 300.0));
@@ -326,13 +370,17 @@ MissionPhase Mission::phase(Time now) const {
 }
 
 MissionMemory Mission::memory() const {
-  return {scheduler_.state(),           deployment_, next_task_, task_, must_charge_, planner_->memory(),
-          scheduler_.times().unstored()};
+  MissionMemory memory{scheduler_.state(),           deployment_, next_task_, task_, must_charge_, planner_->memory(),
+                       scheduler_.times().unstored()};
+  const auto demand = charge_plan_.demand().unstored();
+  memory.lessons.insert(memory.lessons.end(), demand.begin(), demand.end());
+  return memory;
 }
 
 void Mission::mark_stored() {
   scheduler_.board().mark_stored();
   scheduler_.times().mark_stored();
+  charge_plan_.demand().mark_stored();
 }
 
 }  // namespace docent::task_control

@@ -10,6 +10,7 @@
 #include "docent/task_control/mission/battery_watch.h"
 #include "docent/task_control/mission/mission_params.h"
 #include "docent/task_control/mission/planner.h"
+#include "docent/task_control/mission/staff_call.h"
 #include "docent/task_control/mission/tour_vote.h"
 #include "docent/task_control/tour_scheduler/task_order.h"
 #include "docent/task_control/tour_scheduler/tour_scheduler.h"
@@ -40,6 +41,8 @@ struct MissionSummary {
   bool needs_charge = false;   ///< it must, before it goes on
   bool says_farewell = false;  ///< at the end of a tour
   int charging_min = 0;        ///< [min] until it is charged well enough, in steps of five
+  Reason charger_trouble{};    ///< what keeps it from charging: charger_occupied or charger_no_current; none: nothing
+  int charge_percent = 100;
   Counters counters;
   std::vector<std::string> agenda;
 };
@@ -64,10 +67,15 @@ class Mission {
   void localization(bool is_localized, Point2 position, Time now);
   void limits(bool is_open, std::optional<OperatingMode> mode);
   /// @param hour  of the day, 0..23: travel times depend on it
-  void time_of_day(int hour) { scheduler_.times().set_hour(hour); }
+  void time_of_day(int hour) {
+    scheduler_.times().set_hour(hour);
+    charge_plan_.set_hour(hour);
+  }
   /// @param charge  0..1. @param is_charging  nullopt: the battery does not say
   void battery(double charge, std::optional<bool> is_charging, Time now);
   [[nodiscard]] bool is_battery_silent(Time now) const { return battery_.is_silent(now); }
+  /// Why the staff were called, and still must come, in English; empty: they need not.
+  [[nodiscard]] std::string staff_call(Time now) const;
   /// The Web's visitors vote for a tour; every `vote_every`th is theirs ([Minerva2000] 6.4), and one that they want
   /// while nobody else wants anything. @param round  a UUIDv7, the id of its request. @param tour  empty: no votes yet
   void votes(const std::string& round, const std::string& tour, Time now);
@@ -152,11 +160,13 @@ class Mission {
   [[nodiscard]] double spare(Time now) const;
   /// How long it may be busy before it must charge [s].
   [[nodiscard]] double budget_s(Time now) const;
+  /// Charge with which it serves who waits.
   [[nodiscard]] double enough_to_serve() const;
   void watch_battery(Time now);
   [[nodiscard]] const std::vector<std::string>& agenda(Time now);
   [[nodiscard]] bool is_at_charger() const;
   [[nodiscard]] bool has_contact(Time now) const;
+  [[nodiscard]] Reason charger_trouble() const;
 
   MissionParams params_;
   TourScheduler scheduler_;
@@ -176,7 +186,10 @@ class Mission {
   std::optional<Point2> position_;
   Conditions conditions_;
   BatteryWatch battery_;
+  StaffCall staff_;
+  ChargePlan charge_plan_;
   bool must_charge_;            ///< too little is left to go on
+  bool backs_off_ = false;      ///< goes home before it docks anew: its charger gives no current
   bool tops_up_ = false;        ///< charges, or goes to its charger, whenever nobody wants anything
   std::string broken_exhibit_;  ///< what was broken off for the charge that comes
   std::string broken_tour_;

@@ -81,6 +81,12 @@ void Mission::mingle(Time now) {
 void Mission::go_charging(Time now) {
   is_resting_ = false;
   if (activity_ == Activity::charge || has_contact(now) || now < home_not_before_) return;
+  const Pose2 home = scheduler_.programme().home;
+  backs_off_ = backs_off_ && distance(position(), home.position()) > params_.at_home_m;
+  if (backs_off_ && activity_ == Activity::home) return;
+  if (backs_off_)
+    return start_task(Activity::home,
+                      {"", TaskKind::home, "", home, scheduler_.programme().languages.front(), false, ""});
   start_task(Activity::charge, order_to_charge());
 }
 

@@ -22,6 +22,8 @@ Result<void> MissionParams::validate() const {
   if (!(vote_idle_s >= 0.0)) return fail("mission.vote_idle_s must be >= 0");
   if (!(drain_per_s > 0.0)) return fail("mission.drain_per_s must be > 0");
   if (!(charge_per_s > 0.0)) return fail("mission.charge_per_s must be > 0");
+  if (auto valid = charging.validate(); !valid) return fail("mission." + valid.error().message);
+  if (auto valid = staff.validate(); !valid) return fail("mission." + valid.error().message);
   return {};
 }
 

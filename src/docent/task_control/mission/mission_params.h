@@ -1,6 +1,8 @@
 #pragma once
 
 #include "docent/base/result.h"
+#include "docent/task_control/mission/charge_plan.h"
+#include "docent/task_control/mission/staff_call.h"
 #include "docent/task_control/tour_scheduler/scheduler_params.h"
 
 namespace docent::task_control {
@@ -29,6 +31,8 @@ struct MissionParams {
   double vote_idle_s = 120.0;    ///< [s] >= 0 after the first vote a robot at home gives it though it is not its turn
   double drain_per_s = 1.4e-4;   ///< [1/s] > 0 share of a full battery: two hours of driving; more is measured
   double charge_per_s = 2.2e-4;  ///< [1/s] > 0 likewise: 75 minutes; measured while it charges
+  ChargePlanParams charging;     ///< when it charges
+  StaffCallParams staff;         ///< when it calls for help, because it does not get its charge
   template <class V>
   void visit(V& v) {
     schedule.visit(v);
@@ -49,6 +53,8 @@ struct MissionParams {
     v("vote_idle_s", vote_idle_s);
     v("drain_per_s", drain_per_s);
     v("charge_per_s", charge_per_s);
+    v("charging", charging);
+    v("staff", staff);
   }
   [[nodiscard]] Result<void> validate() const;
 };

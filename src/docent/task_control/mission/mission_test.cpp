@@ -154,18 +154,65 @@ TEST_F(MissionTest, ChargesWhenTheBatteryIsLowAndServesAfterwardsWhoCameMeanwhil
   EXPECT_EQ(mission->task().exhibit_id, "") << "nothing was broken off";
   report(TaskStatus::done);
   robot = {0, 3};
-  battery(0.3, true);
+  battery(0.2, true);
   EXPECT_EQ(phase(), MissionPhase::charging);
-  EXPECT_EQ(mission->summary(time()).charging_min, 10) << "0.1 more at 2.2e-4 1/s";
+  EXPECT_EQ(mission->summary(time()).charging_min, 5) << "0.05 more at 2.2e-4 1/s: enough for who waits";
   wish("3", RequestKind::exhibit, "a");
   pass(60.0);
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::queued) << id;
   EXPECT_EQ(mission->memory().schedule.board.find("3")->reason, ReasonWord::charging_first);
-  battery(0.41, true);
+  battery(0.26, true);
   EXPECT_EQ(phase(), MissionPhase::driving) << "somebody waits: enough is enough";
   report(TaskStatus::done);
   report(TaskStatus::done);
   for (const char* id : {"2", "3"}) EXPECT_EQ(status_of(id), RequestStatus::fulfilled) << id;
+}
+
+TEST_F(MissionTest, AnOccupiedChargerIsTriedAgainAndTheStaffAreCalled) {
+  pass(5.0);
+  robot = {1, 3};
+  battery(0.14);
+  pass(2.0);
+  ASSERT_EQ(mission->task().kind, TaskKind::charge);
+  mission->report(mission->task().id, TaskStatus::driving, ReasonWord::charger_occupied, time());
+  EXPECT_EQ(mission->summary(time()).charger_trouble, ReasonWord::charger_occupied);
+  EXPECT_FALSE(happened(EventKind::staff_called)) << "it tries other ways first";
+  mission->report(mission->task().id, TaskStatus::failed, ReasonWord::charger_occupied, time());
+  pass(2.0);
+  EXPECT_TRUE(happened(EventKind::charger_failed) && happened(EventKind::staff_called));
+  EXPECT_NE(mission->staff_call(time()).find("14 % left"), std::string::npos) << mission->staff_call(time());
+  pass(31.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "again";
+  report(TaskStatus::done);
+  robot = {0, 3};
+  for (double charge = 0.13; charge < 0.16; charge += 0.001) {
+    battery(charge, true);
+    pass(5.0);
+  }
+  EXPECT_EQ(mission->staff_call(time()), "");
+  EXPECT_TRUE(mission->summary(time()).charger_trouble.is_none());
+}
+
+TEST_F(MissionTest, AtAChargerWithoutCurrentItBacksOffAndTriesAgain) {
+  pass(5.0);
+  robot = {0, 3};
+  battery(0.14, true);  // so it says
+  pass(5.0);
+  EXPECT_EQ(phase(), MissionPhase::charging);
+  for (double charge = 0.14; charge > 0.12; charge -= 0.0005) {
+    battery(charge, true);
+    pass(7.0);
+  }
+  EXPECT_TRUE(happened(EventKind::charger_failed) && happened(EventKind::staff_called));
+  EXPECT_EQ(mission->summary(time()).charger_trouble, ReasonWord::charger_no_current);
+  battery(0.12, true);
+  pass(31.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::home) << "it backs off";
+  report(TaskStatus::done);
+  robot = {0, 0};
+  battery(0.12, false);
+  pass(31.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "and docks anew";
 }
 
 TEST_F(MissionTest, DoesNotStayAtHomeWhenTheBatteryGotLowOnTheWayThere) {

@@ -131,6 +131,7 @@ std::string MissionService::fault(Time now) const {
   if (!store_fault_.empty()) return store_fault_;
   if (std::string fault = mission_->planner_fault(); !fault.empty()) return fault;
   if (!company_.fault().empty()) return company_.fault();
+  if (std::string call = mission_->staff_call(now); !call.empty()) return call;
   if (mission_->is_battery_silent(now)) return "the battery says nothing";
   if (!store_.set_aside().empty()) return "a damaged database was set aside: " + store_.set_aside();
   return {};

@@ -9,6 +9,7 @@ namespace docent::task_control {
 bool is_about_room(const MissionSummary& summary) { return summary.is_point && !point_of(summary.place); }
 
 interaction::Sentence sentence_of(const MissionSummary& summary) {
+  constexpr int kToldFrom = 30;  // [%] of the charge: with more nobody need care
   using interaction::Sentence;
   if (summary.phase == MissionPhase::waking) return Sentence::waking;
   if (summary.phase == MissionPhase::relocalizing) return Sentence::relocalizing;
@@ -20,6 +21,10 @@ interaction::Sentence sentence_of(const MissionSummary& summary) {
   if (summary.says_farewell) return Sentence::farewell;
   if (summary.phase == MissionPhase::explaining) return Sentence::explaining;
   if (summary.phase == MissionPhase::asking) return Sentence::asking;
+  const auto trouble = summary.charger_trouble.word();
+  const bool is_told = summary.needs_charge || summary.charge_percent < kToldFrom;
+  if (trouble == ReasonWord::charger_occupied && is_told) return Sentence::charger_occupied;
+  if (trouble == ReasonWord::charger_no_current && is_told) return Sentence::charger_no_current;
   if (summary.phase == MissionPhase::charging) return Sentence::charging;
   if (summary.needs_charge) return Sentence::battery_low;
   if (summary.phase == MissionPhase::going_home) return Sentence::going_home;
@@ -28,10 +33,14 @@ interaction::Sentence sentence_of(const MissionSummary& summary) {
 
 std::string status_text(const MissionSummary& summary, const museum::Translations& title, const std::string& language) {
   constexpr int kLeastMinutes = 5;
-  const std::string about = summary.phase == MissionPhase::charging
+  const interaction::Sentence which = sentence_of(summary);
+  const bool is_of_charger =
+      which == interaction::Sentence::charger_occupied || which == interaction::Sentence::charger_no_current;
+  const std::string about = is_of_charger ? std::to_string(summary.charge_percent)
+                            : summary.phase == MissionPhase::charging
                                 ? std::to_string(std::max(kLeastMinutes, summary.charging_min))
                                 : museum::translated(title, language);
-  return interaction::sentence(sentence_of(summary), language, Mood::neutral, 0, about);
+  return interaction::sentence(which, language, Mood::neutral, 0, about);
 }
 
 }  // namespace docent::task_control

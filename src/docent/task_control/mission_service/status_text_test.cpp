@@ -46,6 +46,21 @@ TEST(StatusText, WhatIsInTheWayAndWhatIsMissingIsSaid) {
   EXPECT_EQ(sentence_of(summary), Sentence::farewell);
 }
 
+TEST(StatusText, WhatKeepsItFromChargingIsSaidWhereItMatters) {
+  MissionSummary summary = in(MissionPhase::waiting);
+  summary.charger_trouble = ReasonWord::charger_occupied;
+  summary.charge_percent = 80;
+  EXPECT_EQ(sentence_of(summary), Sentence::waiting) << "nobody need care";
+  summary.needs_charge = true;
+  summary.charge_percent = 14;
+  EXPECT_EQ(sentence_of(summary), Sentence::charger_occupied);
+  EXPECT_NE(status_text(summary, {}, "en").find("14 percent"), std::string::npos);
+  summary.charger_trouble = ReasonWord::charger_no_current;
+  EXPECT_EQ(sentence_of(summary), Sentence::charger_no_current);
+  summary.phase = MissionPhase::explaining;
+  EXPECT_EQ(sentence_of(summary), Sentence::explaining);
+}
+
 TEST(StatusText, PointsAndRoomsAreNoExhibits) {
   const std::string point = point_name({1.0, 2.0});
   EXPECT_EQ(sentence_of(to_place(MissionPhase::driving, point)), Sentence::to_point);

@@ -68,7 +68,9 @@ TEST_F(MissionTest, BeginsNoTourThatWouldTakeMoreThanThereIs) {
   EXPECT_EQ(mission->task().tour_id, "both");
 }
 
-TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
+TEST_F(MissionTest, InAQuietHourItChargesWhenAQuarterIsMissing) {
+  params.charging.busy_share = 1.0;  // no hour is busy
+  make({});
   pass(5.0);
   battery(0.75);
   pass(1.0);
@@ -88,6 +90,20 @@ TEST_F(MissionTest, ChargesBeforeItMustWhenNobodyWantsAnything) {
   battery(0.96, true);
   pass(15.0);
   EXPECT_EQ(mission->task().kind, TaskKind::home);
+}
+
+TEST_F(MissionTest, InABusyHourItChargesInEveryGap) {
+  pass(5.0);
+  battery(0.9);
+  pass(1.0);
+  EXPECT_EQ(phase(), MissionPhase::idle);
+  battery(0.86);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge);
+  report(TaskStatus::done);
+  robot = {0, 3};
+  battery(0.86, true);
+  wish("1", RequestKind::exhibit, "a");
+  EXPECT_EQ(phase(), MissionPhase::driving) << "it leaves at once";
 }
 
 TEST_F(MissionTest, TriesAgainWhenTheChargerDoesNotCharge) {
@@ -136,11 +152,11 @@ TEST_F(MissionTest, ARestartGoesOnCharging) {
   EXPECT_EQ(mission->task().id, task) << "the way to the charger goes on";
   report(TaskStatus::done);
   robot = {0, 3};
-  battery(0.3, true);
+  battery(0.2, true);
   memory = mission->memory();
   make(memory);
   wish("1", RequestKind::exhibit, "a");
-  battery(0.3, true);
+  battery(0.2, true);
   pass(5.0);
   EXPECT_EQ(phase(), MissionPhase::charging);
   EXPECT_EQ(status_of("1"), RequestStatus::queued);
@@ -158,11 +174,18 @@ TEST_F(MissionTest, ChargesBetweenTwoToursBeforeItMust) {
   EXPECT_EQ(mission->task().kind, TaskKind::farewell);
   wish("1", RequestKind::exhibit, "a");
   report(TaskStatus::done);
-  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "though somebody waits";
-  EXPECT_EQ(status_of("1"), RequestStatus::queued);
+  EXPECT_EQ(mission->task().kind, TaskKind::visit) << "somebody waits";
   EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
-  battery(0.41, true);
-  EXPECT_EQ(mission->task().kind, TaskKind::visit);
+  battery(0.22);
+  report(TaskStatus::done);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "nobody does";
+  robot = {0, 3};
+  report(TaskStatus::done);
+  battery(0.23, true);
+  wish("2", RequestKind::exhibit, "b");
+  EXPECT_EQ(status_of("2"), RequestStatus::queued);
+  battery(0.26, true);
+  EXPECT_EQ(mission->task().kind, TaskKind::visit) << "enough for who waits";
 }
 
 TEST_F(MissionTest, ABatteryThatDoesNotLastShortensTheTour) {

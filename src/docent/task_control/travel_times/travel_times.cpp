@@ -20,8 +20,8 @@
 namespace docent::task_control {
 namespace {
 
-constexpr std::array<const char*, 9> kKinds{"pair",  "metres",  "seconds", "deviation", "hour",
-                                            "crowd", "unasked", "went_on", "heard_more"};
+constexpr std::array<const char*, 10> kKinds{"pair",  "metres",  "seconds", "deviation",  "hour",
+                                             "crowd", "unasked", "went_on", "heard_more", "demand"};
 /// [m] The two lengths at which the parameters are taken as seen before any way was: a short way and a long one.
 constexpr std::array<double, 2> kPriorWays{2.0, 20.0};
 constexpr double kSameWay = 0.1;        ///< of the length, and

@@ -62,8 +62,9 @@ struct Foreseen {
 /// How a visit at an exhibit goes after the arrival.
 enum class VisitCourse { unasked, went_on, heard_more };
 
-/// What a row of experience is about. `pair`: a way from one place to another; the others are of the whole museum.
-enum class LessonKind { pair, metres, seconds, deviation, hour, crowd, unasked, went_on, heard_more };
+/// What a row of experience is about. `pair`: a way from one place to another; `demand`: an
+/// hour of the day, which is the mission's matter; the others are of the whole museum.
+enum class LessonKind { pair, metres, seconds, deviation, hour, crowd, unasked, went_on, heard_more, demand };
 struct LessonKey {
   LessonKind kind{};
   std::string from{};

@@ -142,7 +142,7 @@ TEST(TravelTimes, AreWrittenAsATable) {
 }
 
 TEST(TravelTimes, EveryKindHasItsWord) {
-  for (int i = 0; i <= static_cast<int>(LessonKind::heard_more); ++i) {
+  for (int i = 0; i <= static_cast<int>(LessonKind::demand); ++i) {
     const auto kind = static_cast<LessonKind>(i);
     EXPECT_EQ(lesson_kind_of(to_text(kind)), kind);
   }

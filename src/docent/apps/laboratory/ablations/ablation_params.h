@@ -31,6 +31,9 @@ struct AblationParams {
   bool stores_at_once = false;           ///< web: what is stored is stored on the thread that takes the stop
   bool never_explores = false;           ///< attract: does what it knows best and nothing else
   bool ignores_reward = false;           ///< attract: remembers each phase as worth nothing
+  bool forgets_touch = false;            ///< avoid, map: what only touch finds is forgotten at once
+  bool takes_things_for_people = false;  ///< executive: whatever stands on the charger is somebody in its way
+  bool calls_nobody = false;             ///< mission: the staff are never called
   template <class V>
   void visit(V& v) {
     v("blind_to_people", blind_to_people);
@@ -57,6 +60,9 @@ struct AblationParams {
     v("stores_at_once", stores_at_once);
     v("never_explores", never_explores);
     v("ignores_reward", ignores_reward);
+    v("forgets_touch", forgets_touch);
+    v("takes_things_for_people", takes_things_for_people);
+    v("calls_nobody", calls_nobody);
   }
   /// Names of what is not as by default, with ", " between them.
   [[nodiscard]] std::string crippled() const;

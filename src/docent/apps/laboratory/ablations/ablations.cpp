@@ -1,6 +1,7 @@
 #include "docent/apps/laboratory/ablations/ablations.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "docent/interaction/attract/attraction.h"
 #include "docent/localization/localizer/localizer_params.h"
 #include "docent/localization/sonar/evidence/sonar_evidence.h"
+#include "docent/mapping/occupancy/live_map.h"
 #include "docent/messages/topics.h"
 #include "docent/people/people_finder.h"
 #include "docent/task_control/golex/executive_params.h"
@@ -43,7 +45,12 @@ void amend_driving(robot::Amendments& amendments, const AblationParams& params) 
   amendments.add<collision_avoidance::AvoiderParams>([params](auto& avoider) {
     avoider.blind_to_people = params.blind_to_people;
     avoider.watches = !params.without_watches;
+    avoider.remembers_touch = !params.forgets_touch;
     if (params.doubts_odometry) avoider.odometry = {.margin = 0.0, .linear_noise = 0.02, .angular_noise = 0.02};
+  });
+  amendments.add<mapping::LiveMapParams>([params](auto& map) {
+    constexpr double kAtOnce = 0.01;  // [s]
+    if (params.forgets_touch) map.touch.forget = kAtOnce;
   });
   amendments.add<collision_avoidance::VirtualMeasurementParams>(
       [params](auto& hazards) { hazards.best_pose_only = params.best_pose_only; });
@@ -64,6 +71,11 @@ void amend_guiding(robot::Amendments& amendments, const AblationParams& params) 
   });
   amendments.add<task_control::SchedulerParams>(
       [params](auto& scheduler) { scheduler.by_travel = !params.serves_by_arrival; });
+  amendments.add<task_control::StaffCallParams>([params](auto& staff) {
+    if (!params.calls_nobody) return;
+    staff.call_below = staff.trouble_below = 0.0;
+    staff.trouble_tries = staff.way_tries = std::numeric_limits<int>::max();
+  });
   amendments.add<task_control::GologPlannerParams>(
       [params](auto& planner) { planner.has_stand_in = !params.without_stand_in; });
   amendments.add<task_control::MissionMemory>([params](auto& memory) {
@@ -118,6 +130,11 @@ BusAlterations alterations_of(const AblationParams& params, std::string_view mod
     alterations.heard<nav_msgs::OccupancyGrid>(topics::kLiveMap, emptied<nav_msgs::OccupancyGrid>);
     alterations.heard<docent_msgs::LiveMapUpdate>(topics::kLiveMapUpdate, emptied<docent_msgs::LiveMapUpdate>);
   }
+  if (module == "executive" && params.takes_things_for_people)
+    alterations.heard<docent_msgs::GoalState>(topics::kGoalState, [](auto state) {
+      state.occupied = false;
+      return state;
+    });
   if (module == "head" && params.without_moods)
     alterations.said<docent_msgs::Expression>(topics::kExpression, [](auto expression) {
       expression.mood = to_text(Mood::neutral);

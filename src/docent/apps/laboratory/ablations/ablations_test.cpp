@@ -9,6 +9,7 @@
 #include "docent/interaction/attract/attraction.h"
 #include "docent/localization/localizer/localizer_params.h"
 #include "docent/localization/sonar/evidence/sonar_evidence.h"
+#include "docent/mapping/occupancy/live_map.h"
 #include "docent/people/people_finder.h"
 #include "docent/task_control/golex/executive_params.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
@@ -28,7 +29,9 @@ Part amended(const AblationParams& params, Part part = {}) {
 TEST(Ablations, WithoutASwitchEveryPartIsAsARobotHasIt) {
   const AblationParams none;
   const auto avoider = amended<collision_avoidance::AvoiderParams>(none);
-  EXPECT_TRUE(avoider.watches && !avoider.blind_to_people);
+  EXPECT_TRUE(avoider.watches && !avoider.blind_to_people && avoider.remembers_touch);
+  EXPECT_GT(amended<mapping::LiveMapParams>(none).touch.forget, 60.0);
+  EXPECT_GT(amended<task_control::StaffCallParams>(none).call_below, 0.1);
   EXPECT_FALSE(amended<collision_avoidance::VirtualMeasurementParams>(none).best_pose_only);
   EXPECT_FALSE(amended<localization::LocalizerParams>(none).reckons_dead);
   EXPECT_FALSE(amended<localization::SonarEvidenceParams>(none).trusting);
@@ -54,10 +57,14 @@ TEST(Ablations, ASwitchChangesItsParameter) {
   params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people = params.without_ladder =
       params.without_moods = true;
   params.never_gives_up = params.serves_by_arrival = params.without_stand_in = true;
+  params.forgets_touch = params.calls_nobody = true;
+  EXPECT_LT(amended<mapping::LiveMapParams>(params).touch.forget, 1.0);
+  const auto staff = amended<task_control::StaffCallParams>(params);
+  EXPECT_TRUE(staff.call_below == 0.0 && staff.trouble_tries > 1000 && staff.way_tries > 1000);
   params.never_explores = params.ignores_reward = params.stores_at_once = true;
   EXPECT_TRUE(amended<telepresence::StoreQueueParams>(params).at_once);
   const auto avoider = amended<collision_avoidance::AvoiderParams>(params);
-  EXPECT_TRUE(!avoider.watches && avoider.blind_to_people);
+  EXPECT_TRUE(!avoider.watches && avoider.blind_to_people && !avoider.remembers_touch);
   EXPECT_EQ(avoider.odometry.margin, 0.0);
   EXPECT_TRUE(amended<collision_avoidance::VirtualMeasurementParams>(params).best_pose_only);
   EXPECT_TRUE(amended<localization::LocalizerParams>(params).reckons_dead);
@@ -157,6 +164,14 @@ TEST_F(AlteredModule, NoHazardIsNear) {
   scan.angle_increment = std::numbers::pi_v<float>;
   scan.ranges = {1.0F, 2.0F, 3.0F, 4.0F};  // twice round
   EXPECT_EQ(said("hazards", topics::kVirtualScan, scan).ranges, (std::vector<float>(4, 5.0F)));
+}
+
+TEST_F(AlteredModule, WhateverStandsOnTheChargerIsSomebody) {
+  params.takes_things_for_people = true;
+  docent_msgs::GoalState state;
+  state.occupied = true;
+  EXPECT_FALSE(heard("executive", topics::kGoalState, state)->occupied);
+  EXPECT_TRUE(heard("web", topics::kGoalState, state)->occupied);
 }
 
 TEST_F(AlteredModule, TheFaceIsNeutralAndLooksAsBefore) {
