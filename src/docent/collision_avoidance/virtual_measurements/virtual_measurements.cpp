@@ -168,11 +168,19 @@ void VirtualMeasurements::fill(Row& row, Point2 position, std::span<const Segmen
   for (std::size_t i = 0; i < ranges.size(); ++i) row.bins[i] = bin_of(ranges[i]);
 }
 
+double VirtualMeasurements::way_back(Point2 position) const {
+  double way = params_.reentry;
+  for (const Polygon& hazard : hazards_)
+    if (contains(hazard, position)) way = std::max(way, outline_distance(hazard, position) + params_.past_edge);
+  return way;
+}
+
 void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
+  const double way_back = this->way_back(position);
   for (int i = 0; i < kDirections; ++i) {
     const Point2 direction = unit(Angle::radians(i * kStep));
     bool returns = false;
-    for (double way = kBin; way <= params_.reentry && !returns; way += kBin)
+    for (double way = kBin; way <= way_back && !returns; way += kBin)
       returns = is_possible(position + way * direction);
     row.bins[static_cast<std::size_t>(i)] = returns ? static_cast<std::uint8_t>(kBins - 1) : std::uint8_t{1};
   }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "docent/collision_avoidance/clocks/driver_stamps.h"
 #include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
 #include "docent/collision_avoidance/virtual_measurements/mount_doubt.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
+#include "docent/geometry/polygon.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/belief_cells.h"
 
@@ -26,6 +28,7 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
+        zones_{context.museum.hazards},
         doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -48,6 +51,8 @@ class HazardsModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!last_) return {"starting", "no belief yet"};
     if (bus_.now() - received_ > seconds(kBeliefLife)) return {"degraded", "no fresh belief"};
+    if (!zone_.empty())
+      return {"degraded", "I stand inside the zone '" + zone_ + "': an operator may steer me out, or correct the museum"};
     if (possible_mass_ < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
     return {};
   }
@@ -104,6 +109,13 @@ class HazardsModule final : public Module {
     }
   }
 
+  /// The id of the hazard that holds a place, map; empty: none does.
+  [[nodiscard]] std::string zone_at(Point2 place) const {
+    for (const museum::Hazard& zone : zones_)
+      if (contains(zone.polygon, place)) return zone.id;
+    return {};
+  }
+
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
     for (const auto& cell : belief.cells) poses_.push_back({{cell.x, cell.y}, cell.theta, cell.mass});
@@ -134,6 +146,9 @@ class HazardsModule final : public Module {
                                         {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
     possible_mass_ = of_hazards.possible_mass;
+    zone_.clear();
+    if (belief.localized && !belief.hypotheses.empty())
+      zone_ = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
                      {of_hazards.ranges, of_border.ranges}};
@@ -165,6 +180,8 @@ class HazardsModule final : public Module {
   collision_avoidance::LocalTime local_time_{{.honest_way = kHonestWay}};
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
+  std::vector<museum::Hazard> zones_;
+  std::string zone_;  ///< in which the robot knows that it stands; empty: none
   /// What the belief does not tell.
   struct {
     double sigmas;

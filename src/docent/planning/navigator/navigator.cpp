@@ -16,6 +16,7 @@ constexpr Duration kLedByHandFor = std::chrono::seconds{3};  ///< until the avoi
 Navigator::Navigator(const OccupancyGrid& map, const DrivableGround& ground, std::vector<Pose2> base_from_scanner,
                      const NavigatorParams& params)
     : goal_tolerance_{params.goal_tolerance},
+      zones_{ground.hazards},
       route_{map, ground.hazards, ground.area, params.route},
       coast_{map, route_, params.coastal},
       pursuit_{params.pursuit},
@@ -61,12 +62,24 @@ void Navigator::plan_on(const Whereabouts& where) {
   route_.hold_way(here->position());
 }
 
+bool Navigator::is_in_zone(const Whereabouts& where, Time now) const {
+  const auto here = where.is_known(now) ? where.map_from_base() : std::nullopt;
+  return here && std::any_of(zones_.begin(), zones_.end(),
+                             [&](const Polygon& zone) { return contains(zone, here->position()); });
+}
+
 Orders Navigator::step(const Whereabouts& where, Time now) {
   if (relocalizes_ && has_goal()) return look_for_position(where, now);
   if (has_goal()) plan_on(where);
   if (is_stopped_ || (steered_ && now - *steered_ < kLedByHandFor)) pursuit_.hold(now);
   Orders orders;
   orders.goal_id = pursuit_.goal().id;
+  if (has_goal() && is_in_zone(where, now)) {
+    pursuit_.hold(now);
+    orders.report.state = GoalStatus::waiting;
+    orders.report.reason = "it stands inside a hazard's zone, which only an operator may lead it out of";
+    return orders;
+  }
   orders.report = pursuit_.step(where.is_known(now) ? where.map_from_base() : std::nullopt, route_, now);
   orders.aim = aim_of(orders.report, pursuit_.goal(), where.map_from_odom);
   if (where.odom_from_base) orders.look = look_for(orders.aim, *where.odom_from_base);

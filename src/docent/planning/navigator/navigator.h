@@ -66,7 +66,11 @@ class Navigator {
   [[nodiscard]] Orders look_for_position(const Whereabouts& where, Time now);
   [[nodiscard]] std::optional<std::vector<Point2>> news_of_path(const Pursuit& pursuit, const Whereabouts& where);
 
+  /// The robot knows that it stands inside a hazard: whether it may leave, and how, is for an operator to say.
+  [[nodiscard]] bool is_in_zone(const Whereabouts& where, Time now) const;
+
   double goal_tolerance_;  ///< [m]
+  std::vector<Polygon> zones_;
   RoutePlanner route_;
   CoastGuide coast_;
   GoalPursuit pursuit_;
