@@ -43,6 +43,7 @@ void amend_driving(robot::Amendments& amendments, const AblationParams& params) 
   amendments.add<collision_avoidance::AvoiderParams>([params](auto& avoider) {
     avoider.blind_to_people = params.blind_to_people;
     avoider.watches = !params.without_watches;
+    avoider.stops_when_carried_off = !params.misses_carrying;
     if (params.doubts_odometry) avoider.odometry = {.margin = 0.0, .linear_noise = 0.02, .angular_noise = 0.02};
   });
   amendments.add<collision_avoidance::VirtualMeasurementParams>(
