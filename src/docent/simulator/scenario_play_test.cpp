@@ -28,6 +28,17 @@ TEST(ScenarioPlay, AKidnapMayTurnTheRobotAndShiftItALittle) {
   EXPECT_LE(distance(pose.position(), {3.0, 4.0}), 1.5);
 }
 
+TEST(ScenarioPlay, AKidnapMayEndBesideAHazard) {
+  SimulationOptions near = playing("events:\n  - {at: 1, kidnap: {near_hazards: 0.3}}\n");
+  const Polygon stairs{{10.0, 3.0}, {12.0, 3.0}, {12.0, 5.0}, {10.0, 5.0}};
+  near.world.solids.push_back({"stairs", SolidKind::stairs, stairs, 0.0, 0.0, false});
+  Bench bench{near};
+  bench.run(2.0);
+  const double gap = distance(stairs, {bench.state.x, bench.state.y}) - 0.265;
+  EXPECT_GE(gap, 0.04);
+  EXPECT_LE(gap, 0.31);
+}
+
 TEST(ScenarioPlay, WhatWaitsForAMomentHoldsUpNothingElse) {
   Bench bench{playing(R"(events:
   - {at: 1, during: explaining, after: 2, kill: {module: mission}}

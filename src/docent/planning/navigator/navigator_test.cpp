@@ -220,6 +220,21 @@ TEST_F(NavigatorTest, HazardsAndTheBorderAreClosed) {
   EXPECT_EQ(last.aim.mode, DriveMode::stop);
 }
 
+TEST_F(NavigatorTest, InsideAZoneItStandsWhateverTheGoal) {
+  DrivableGround ground;
+  ground.hazards = {{{2.5, 5.5}, {3.5, 5.5}, {3.5, 6.5}, {2.5, 6.5}}};  // drawn round the robot
+  navigator = {testing::hall_with_two_doors(), ground, {Pose2{}}, for_a_small_robot()};
+  (void)want("g1", {9.0, 6.0});
+  run(10.0);
+  EXPECT_EQ(last.aim.mode, DriveMode::stop);
+  EXPECT_EQ(last.report.state, GoalStatus::waiting) << "the wish is not lost";
+  EXPECT_NE(last.report.reason, "");
+  map_from_base.x = 4.2;  // an operator has led it out
+  odom_from_base.y = -1.2;
+  run(2.0);
+  EXPECT_EQ(last.aim.mode, DriveMode::drive);
+}
+
 TEST_F(NavigatorTest, IsBlockedWhenItDoesNotGetOnUnlessAnOperatorHoldsOrLeadsIt) {
   (void)want("g1", {9.0, 6.0});
   run(6.0);
