@@ -35,6 +35,7 @@ constexpr std::array<const char*, kSentences> kKeys{
     "must_charge",
     "at_charger",
     "stay_behind",
+    "step_back",
     "greeting",
     "next_exhibit",
     "farewell",

@@ -36,6 +36,7 @@ enum class Sentence {
   must_charge,     ///< when a visit or a tour is broken off for the battery
   at_charger,      ///< on arrival at the charger
   stay_behind,     ///< to people who walk ahead of the robot or crowd round it: they shall walk behind it
+  step_back,       ///< to people all round a robot that does not know where it is: they hide what it looks for
   greeting,        ///< when a tour begins
   next_exhibit,    ///< in a tour: {title} comes next
   farewell,        ///< when a tour is over

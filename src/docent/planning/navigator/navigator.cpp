@@ -100,6 +100,7 @@ Orders Navigator::look_for_position(const Whereabouts& where, Time now) {
   const auto free = lookout_.clearances(where, now);
   orders.aim = aim_of(lost_drive_.step(where, belief_, free, lookout_.reach(), now));
   orders.report.blocked_s = lost_drive_.held_up_s(now);
+  if (lost_drive_.is_hemmed_in()) orders.report.reason = lookout_.hindrance();
   return orders;
 }
 
