@@ -142,8 +142,8 @@ struct AvoidState {
   std::vector<Candidate> window;
   bool low_obstacle =
       false;  ///< it, or what has touched the robot here, lies below the lasers, which see nobody: a thing
-  /// How often, since `avoid` began, the scans could not follow one another, whatever the base did: somebody has carried
-  /// the robot elsewhere.
+  /// How often, since `avoid` began, the scans could not follow one another, whatever the base did: somebody has
+  /// carried the robot elsewhere.
   std::uint32_t carried_off = 0;
   template <class Self, class V>
   static void visit(Self& m, V& v) {

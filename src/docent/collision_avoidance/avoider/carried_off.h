@@ -54,11 +54,11 @@ class CarriedOff {
   void judge(Time newest);
 
   CarriedOffParams params_;
-  std::vector<Look> looks_;         ///< [scanners]
-  std::optional<Time> pending_;     ///< a break that one scanner saw, and others have not told of yet
-  std::optional<Time> since_;       ///< it was carried off, and does not know where to
+  std::vector<Look> looks_;      ///< [scanners]
+  std::optional<Time> pending_;  ///< a break that one scanner saw, and others have not told of yet
+  std::optional<Time> since_;    ///< it was carried off, and does not know where to
   bool is_suspected_ = false;
-  int here_ = 0;                    ///< beliefs in a row that say "here"
+  int here_ = 0;  ///< beliefs in a row that say "here"
   std::uint32_t times_ = 0;
 };
 

@@ -46,8 +46,7 @@ std::optional<bool> Succession::is_explained(std::span<const SweepView> earlier,
         for (const double aside : {0.0, 90.0}) {
           if (aside > 0.0 && w == 0) continue;
           const Angle along = now.odom_from_sensor.theta + Angle::degrees(aside);
-          const auto found =
-              share(*before, now, moved(now.odom_from_sensor, t * turn / turns, w * way / ways, along));
+          const auto found = share(*before, now, moved(now.odom_from_sensor, t * turn / turns, w * way / ways, along));
           if (!found) continue;
           tells = true;
           explained_ = std::max(explained_, *found);

@@ -12,22 +12,22 @@ namespace docent::collision_avoidance {
 
 struct SuccessionParams {
   RangeLawParams law{};
-  double follows = 0.4;      ///< of the samples as an earlier sweep has them: people and edges are the rest
-  int least = 30;            ///< samples compared, both ways; fewer tell nothing
-  double longest = 0.45;     ///< [s] since the sweep before: then people have changed places, and nothing is told
+  double follows = 0.4;        ///< of the samples as an earlier sweep has them: people and edges are the rest
+  int least = 30;              ///< samples compared, both ways; fewer tell nothing
+  double longest = 0.45;       ///< [s] since the sweep before: then people have changed places, and nothing is told
   std::size_t remembered = 6;  ///< sweeps: late, doubled and swapped ones are like one of these
-  double beyond = 0.3;       ///< [s] for which the base may have moved otherwise than odometry says, at most
-  double slack_turn = 0.12;  ///< [rad] besides: a late stamp while it turns
-  double slack_way = 0.1;    ///< [m] likewise
-  double step_turn = 0.05;   ///< [rad] between the turns that are tried: two samples
-  double step_way = 0.12;    ///< [m] between the ways that are tried
-  int garbage = 5;           ///< sweeps in a row of which none follows any: then the newest is what others follow
+  double beyond = 0.3;         ///< [s] for which the base may have moved otherwise than odometry says, at most
+  double slack_turn = 0.12;    ///< [rad] besides: a late stamp while it turns
+  double slack_way = 0.1;      ///< [m] likewise
+  double step_turn = 0.05;     ///< [rad] between the turns that are tried: two samples
+  double step_way = 0.12;      ///< [m] between the ways that are tried
+  int garbage = 5;             ///< sweeps in a row of which none follows any: then the newest is what others follow
 };
 
 /// Can a sweep follow those before it? First by the motion that odometry tells, which nearly always does; where it does
-/// not, by every motion that the base could have made meanwhile, and from each sweep of the last second, for sweeps come
-/// late, twice and out of order. What none of them explains was seen from another place: somebody has carried the robot
-/// there, and its wheels did not turn. The sweep after it must bear that out, for a single one may be garbage.
+/// not, by every motion that the base could have made meanwhile, and from each sweep of the last second, for sweeps
+/// come late, twice and out of order. What none of them explains was seen from another place: somebody has carried the
+/// robot there, and its wheels did not turn. The sweep after it must bear that out, for a single one may be garbage.
 class Succession {
  public:
   /// `untold`: too little to compare, or too long ago; `suspect`: this sweep cannot follow, wait for the next one;

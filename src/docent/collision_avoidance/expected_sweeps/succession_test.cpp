@@ -88,7 +88,8 @@ TEST_F(Followed, PeopleAllRoundWhoWalkAreNoBreak) {
     for (std::size_t k = 0; k < room.discs.size(); ++k) {
       const Angle way = Angle::degrees(47.0 * static_cast<double>(k) + 3.0 * i);
       room.discs[k].centre = room.discs[k].centre + 0.12 * unit(way);
-      if (norm(room.discs[k].centre) < 0.6) room.discs[k].centre = (0.7 / norm(room.discs[k].centre)) * room.discs[k].centre;
+      if (norm(room.discs[k].centre) < 0.6)
+        room.discs[k].centre = (0.7 / norm(room.discs[k].centre)) * room.discs[k].centre;
     }
     EXPECT_NE(see({}), Finding::broken) << i;
   }

@@ -85,13 +85,13 @@ class ScannerWatch {
 
   /// What a scanner says of the last moments to the others: who is carried off is so with all of them.
   struct Word {
-    Time newest{};                     ///< sweep that could be compared
-    Time unbroken{};                   ///< since when each was as the one before let expect
-    Time broken{};                     ///< when the last break began
-    std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
-    Time fits_map{};                   ///< when it was last as the map has it
-    std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
-    Time remounted{};                  ///< when it was found to be mounted elsewhere
+    Time newest{};                                              ///< sweep that could be compared
+    Time unbroken{};                                            ///< since when each was as the one before let expect
+    Time broken{};                                              ///< when the last break began
+    std::optional<RangeLaw> law{};                              ///< that holds for the newest sweeps instead
+    Time fits_map{};                                            ///< when it was last as the map has it
+    std::optional<RangeLaw> by_map{};                           ///< that holds by the map instead
+    Time remounted{};                                           ///< when it was found to be mounted elsewhere
     Succession::Finding follows = Succession::Finding::untold;  ///< whether the newest sweep can follow those before
   };
   [[nodiscard]] const Word& word() const { return word_; }

@@ -180,8 +180,7 @@ void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
   for (int i = 0; i < kDirections; ++i) {
     const Point2 direction = unit(Angle::radians(i * kStep));
     bool returns = false;
-    for (double way = kBin; way <= way_back && !returns; way += kBin)
-      returns = is_possible(position + way * direction);
+    for (double way = kBin; way <= way_back && !returns; way += kBin) returns = is_possible(position + way * direction);
     row.bins[static_cast<std::size_t>(i)] = returns ? static_cast<std::uint8_t>(kBins - 1) : std::uint8_t{1};
   }
 }

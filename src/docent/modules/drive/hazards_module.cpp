@@ -28,7 +28,7 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
-        zones_{context.museum.hazards},
+        stands_{context.museum.hazards},
         doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -51,9 +51,10 @@ class HazardsModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!last_) return {"starting", "no belief yet"};
     if (bus_.now() - received_ > seconds(kBeliefLife)) return {"degraded", "no fresh belief"};
-    if (!zone_.empty())
-      return {"degraded", "I stand inside the zone '" + zone_ + "': an operator may steer me out, or correct the museum"};
-    if (possible_mass_ < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
+    if (!stands_.zone.empty())
+      return {"degraded",
+              "I stand inside the zone '" + stands_.zone + "': an operator may steer me out, or correct the museum"};
+    if (stands_.possible_mass < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
     return {};
   }
 
@@ -111,7 +112,7 @@ class HazardsModule final : public Module {
 
   /// The id of the hazard that holds a place, map; empty: none does.
   [[nodiscard]] std::string zone_at(Point2 place) const {
-    for (const museum::Hazard& zone : zones_)
+    for (const museum::Hazard& zone : stands_.zones)
       if (contains(zone.polygon, place)) return zone.id;
     return {};
   }
@@ -145,10 +146,10 @@ class HazardsModule final : public Module {
     collision_avoidance::lower_by_doubt(of_hazards.ranges,
                                         {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
-    possible_mass_ = of_hazards.possible_mass;
-    zone_.clear();
+    stands_.possible_mass = of_hazards.possible_mass;
+    stands_.zone.clear();
     if (belief.localized && !belief.hypotheses.empty())
-      zone_ = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
+      stands_.zone = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
                      {of_hazards.ranges, of_border.ranges}};
@@ -180,8 +181,12 @@ class HazardsModule final : public Module {
   collision_avoidance::LocalTime local_time_{{.honest_way = kHonestWay}};
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
-  std::vector<museum::Hazard> zones_;
-  std::string zone_;  ///< in which the robot knows that it stands; empty: none
+  /// Whether the robot is where it may be.
+  struct {
+    std::vector<museum::Hazard> zones;
+    std::string zone{};          ///< in which it knows that it stands; empty: none
+    double possible_mass = 1.0;  ///< of the belief
+  } stands_;
   /// What the belief does not tell.
   struct {
     double sigmas;
@@ -198,7 +203,6 @@ class HazardsModule final : public Module {
   Odometry told_from_;
   Time received_{};
   Time published_{};
-  double possible_mass_ = 1.0;
 };
 
 }  // namespace

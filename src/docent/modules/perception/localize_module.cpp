@@ -155,12 +155,13 @@ class LocalizeModule final : public Module {
       on_scan(i, scan, place);
     });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
-    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState, [this, heard = std::optional<std::uint32_t>{}](
-                                                                     const auto& state) mutable {
-      // A count that falls, or is heard first, is no news: one of us has begun anew.
-      if (heard && state.carried_off > *heard) watch_.uproot();
-      heard = state.carried_off;
-    });
+    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
+                                            [this, heard = std::optional<std::uint32_t>{}](const auto& state) mutable {
+                                              // A count that falls, or is heard first, is no news: one of us has begun
+                                              // anew.
+                                              if (heard && state.carried_off > *heard) watch_.uproot();
+                                              heard = state.carried_off;
+                                            });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });

@@ -10,10 +10,10 @@
 namespace docent::planning {
 
 struct LookAroundStep {
-  bool drive = false;      ///< else turn
-  Point2 via{};            ///< [m], odom: where to drive
-  Angle heading{};         ///< odom: where to turn
-  double tolerance = 0.25; ///< [m] from `via`: there
+  bool drive = false;       ///< else turn
+  Point2 via{};             ///< [m], odom: where to drive
+  Angle heading{};          ///< odom: where to turn
+  double tolerance = 0.25;  ///< [m] from `via`: there
 };
 
 /// Moves a robot that does not know where it is (architecture 8.4): to where its hypotheses are told apart, where it
@@ -50,7 +50,7 @@ class LookAround {
   double turned_ = 0.0;  ///< [rad] in this turn
   std::optional<Angle> last_heading_;
   std::optional<Point2> aim_;
-  double tolerance_ = 0.25;  ///< [m] from the aim
+  double tolerance_ = 0.25;     ///< [m] from the aim
   std::optional<Point2> left_;  ///< [m], odom: where its last drive began
   std::optional<Time> hemmed_in_since_;
   double nearest_ = 0.0;  ///< [m] that it came to the aim, and

@@ -51,8 +51,8 @@ TEST(Ablations, WithoutASwitchEveryPartIsAsARobotHasIt) {
 TEST(Ablations, ASwitchChangesItsParameter) {
   AblationParams params;
   params.blind_to_people = params.without_watches = params.best_pose_only = params.dead_reckoning = true;
-  params.misses_carrying = params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people = params.without_ladder =
-      params.without_moods = true;
+  params.misses_carrying = params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people =
+      params.without_ladder = params.without_moods = true;
   params.never_gives_up = params.serves_by_arrival = params.without_stand_in = true;
   params.never_explores = params.ignores_reward = params.stores_at_once = true;
   EXPECT_TRUE(amended<telepresence::StoreQueueParams>(params).at_once);
