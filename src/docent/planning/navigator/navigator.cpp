@@ -1,6 +1,7 @@
 #include "docent/planning/navigator/navigator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace docent::planning {
 namespace {
@@ -100,7 +101,7 @@ Orders Navigator::look_for_position(const Whereabouts& where, Time now) {
   const auto free = lookout_.clearances(where, now);
   orders.aim = aim_of(lost_drive_.step(where, belief_, free, lookout_.reach(), now));
   orders.report.blocked_s = lost_drive_.held_up_s(now);
-  if (lost_drive_.is_hemmed_in()) orders.report.reason = lookout_.hindrance();
+  if (auto why = hindrance(); !why.empty()) orders.report.reason = std::move(why);
   return orders;
 }
 

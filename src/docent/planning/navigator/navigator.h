@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,11 @@ class Navigator {
                                                Time now);
   /// To be called every `kStepPeriod`.
   [[nodiscard]] Orders step(const Whereabouts& where, Time now);
+
+  /// What keeps a lost robot from going elsewhere to look, for an operator; empty: nothing.
+  [[nodiscard]] std::string hindrance() const {
+    return relocalizes_ && has_goal() && lost_drive_.is_hemmed_in() ? lookout_.hindrance() : std::string{};
+  }
 
   /// The values by which it plans now; without rows and columns once when it has stopped to plan; nullopt: nothing new.
   [[nodiscard]] std::optional<ValuePicture> value_picture();

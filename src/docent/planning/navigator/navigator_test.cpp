@@ -311,6 +311,32 @@ TEST_F(NavigatorTest, ALostRobotDrivesAfterAFullTurnAndTellsWhenItIsHeldUp) {
   EXPECT_NEAR(last.report.blocked_s, 4.0, 0.1) << "it has not moved";
 }
 
+TEST_F(NavigatorTest, ALostRobotThatIsHemmedInSaysWhatHindersIt) {
+  localized = false;
+  (void)want_position();
+  const auto turn_round = [&](float real, float virtual_range) {
+    for (int i = 0; i < 25; ++i) {
+      odom_from_base.theta = odom_from_base.theta + Angle::degrees(20);
+      const Sweep sweep{now, -std::numbers::pi, std::numbers::pi / 180.0, 10.0, std::vector<float>(360, real)};
+      Sweep hazards = sweep;
+      hazards.ranges.assign(360, virtual_range);
+      navigator.lookout().see(0, sweep);
+      navigator.lookout().see_hazards(hazards);
+      step();
+      EXPECT_EQ(last.aim.mode, DriveMode::turn);
+    }
+  };
+  turn_round(0.5F, 6.0F);
+  EXPECT_NE(navigator.hindrance().find("people or things"), std::string::npos) << navigator.hindrance();
+  EXPECT_EQ(last.report.reason, navigator.hindrance());
+  EXPECT_GT(last.report.blocked_s, 0.0) << "so that people are asked";
+  turn_round(4.0F, 0.5F);
+  EXPECT_NE(navigator.hindrance().find("hazards"), std::string::npos) << navigator.hindrance();
+  localized = true;
+  (void)want("g2", {9.0, 6.0});
+  EXPECT_EQ(navigator.hindrance(), "");
+}
+
 TEST_F(NavigatorTest, ALostRobotDrivesToWhereTheBeliefSaysThatItsHypothesesDiffer) {
   navigator = {testing::corridor_with_alcove(), {}, {Pose2{}}, for_a_small_robot()};
   localized = false;
