@@ -130,7 +130,7 @@ class Localizer {
   PoseRefiner refiner_;
   Tracks tracks_;
   Rng rng_;
-  bool is_uprooted_ = false;  ///< since the last view of the tracks
+  bool is_uprooted_ = false;  ///< since the last update
   bool started_ = false;      ///< odometry of the last update is known
   Pose2 odom_from_robot_;
   std::size_t phase_ = 0;  ///< see `thinned`

@@ -62,6 +62,7 @@ void Localizer::uproot() {
   if (!started_ || params_.reckons_dead) return;
   verdict_.uproot();
   refiner_.reset();
+  cadence_.come_elsewhere();
   is_uprooted_ = true;
   if (summary_.modes.empty()) return;
   belief_->believe(summary_.modes, kProbably, rng_);
@@ -101,6 +102,7 @@ Localizer::Update Localizer::due(const sensor_models::RangeSweep& sweep, const P
   if (update.weight < 1.0 && verdict_.keeps_its_place() && cadence_.waited(time) >= kSurpriseWaits &&
       verdict_.startled())
     update.weight = 1.0;
+  if (is_uprooted_) update.weight = 1.0;
   return update;
 }
 
@@ -159,7 +161,6 @@ void Localizer::compare_tracks(const Update& update) {
     const auto best = summary_.modes.empty() ? std::nullopt : std::optional{summary_.modes.front().map_from_robot};
     tracks_.add_view(on_persons.empty() ? update.sweep : without(update.sweep, on_persons), odom_from_robot_,
                      is_startled, best);
-    is_uprooted_ = false;
     std::vector<Pose2> modes;
     for (const BeliefMode& mode : summary_.modes)
       if (mode.mass >= kWorthFollowing * summary_.modes.front().mass) modes.push_back(mode.map_from_robot);
@@ -167,6 +168,7 @@ void Localizer::compare_tracks(const Update& update) {
     const bool in_doubt = verdict_.contradicted() || verdict_.p_lost() > kDoubtful;
     if (tracks_.is_search_due(verdict_.keeps_its_place(), in_doubt)) tracks_.search(map_->places);
   }
+  is_uprooted_ = false;
   tracks_.hear(sensors_, update.weight, odom_from_robot_);
   const auto modes = belief_lacks();
   if (!modes) return;
