@@ -32,8 +32,13 @@ std::optional<double> Succession::share(const SweepView& before, const SweepView
 }
 
 std::optional<bool> Succession::is_explained(std::span<const SweepView> earlier, const SweepView& now) {
-  bool tells = false;
   explained_ = 0.0;
+  for (auto before = earlier.rbegin(); before != earlier.rend(); ++before) {
+    const auto found = share(*before, now, now.odom_from_sensor);
+    if (!found && before == earlier.rbegin()) return std::nullopt;
+    explained_ = std::max(explained_, found.value_or(0.0));
+    if (explained_ >= params_.follows) return true;
+  }
   for (auto before = earlier.rbegin(); before != earlier.rend(); ++before) {
     const double elapsed = std::min(params_.beyond, std::abs(to_seconds(now.stamp - before->stamp)));
     const double turn = max_turn_ * elapsed + params_.slack_turn;
@@ -47,15 +52,13 @@ std::optional<bool> Succession::is_explained(std::span<const SweepView> earlier,
           if (aside > 0.0 && w == 0) continue;
           const Angle along = now.odom_from_sensor.theta + Angle::degrees(aside);
           const auto found = share(*before, now, moved(now.odom_from_sensor, t * turn / turns, w * way / ways, along));
-          if (!found) continue;
-          tells = true;
-          explained_ = std::max(explained_, *found);
-          if (*found >= params_.follows) return true;
+          explained_ = std::max(explained_, found.value_or(0.0));
+          if (explained_ >= params_.follows) return true;
         }
       }
     }
   }
-  return tells ? std::optional{false} : std::nullopt;
+  return false;
 }
 
 void Succession::keep(const SweepView& view) {
