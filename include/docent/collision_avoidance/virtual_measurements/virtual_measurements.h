@@ -26,7 +26,6 @@ struct VirtualMeasurementParams {
   std::size_t most_rows = 16000;  ///< 3 MB, reached within the first hour: a day takes no more memory than that
   double block = 0.5;             ///< [m] positions in one block have the same borders within range
   double reentry = 0.5;           ///< [m] from outside the area: within that, a way leads back in
-  double past_edge = 0.2;         ///< [m] from inside a hazard likewise, beyond the way to its nearest edge
   std::size_t sample = 256;       ///< poses from which the limits are guessed
   std::size_t few_poses = 1024;   ///< not worth a guess
   double ample = 4.0;             ///< times the mass that is wanted: so much may the sample be off
@@ -142,8 +141,8 @@ class VirtualMeasurements {
   };
   const Surroundings& surroundings_of(Point2 position);
   void fill(Row& row, Point2 position, std::span<const Segment> borders) const;
-  /// [m] from where the robot cannot be, within which a direction must lead back for it to be free.
-  [[nodiscard]] double way_back(Point2 position) const;
+  /// [m] to the nearest edge of the hazard that holds a position; nullopt: none does.
+  [[nodiscard]] std::optional<Point2> way_out(Point2 position) const;
   void fill_from_outside(Row& row, Point2 position) const;
   /// A place just inside the border for one that lies on it or beyond: its border is where the robot is, and all ways
   /// inwards are open. Other places stay.

@@ -135,7 +135,7 @@ TEST_F(CarriedAway, ItStopsWithinHalfASecondAndTurnsOnlyUntilItKnowsWhereItIs) {
   world.run(3.0);
   const Pose2 here = world.map_from_base;
   world.target.mode = AvoiderTarget::Mode::turn;
-  world.target.heading = (world.raw_from_map * here).theta + Angle::degrees(120);
+  world.target.heading = here.theta + Angle::degrees(120);
   world.run(1.0);
   EXPECT_GT(std::abs(world.velocity.angular), 0.5) << world.decision.reason;
   world.target.mode = AvoiderTarget::Mode::drive;

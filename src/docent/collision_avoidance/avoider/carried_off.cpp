@@ -17,7 +17,7 @@ CarriedOff::Word CarriedOff::word_of(const Look& look, Time first, Time newest) 
   if (!look.stamp || newest - *look.stamp > seconds(params_.alive)) return Word::agrees;  // it says nothing at all
   const Time since = first - seconds(params_.same_moment);
   if (look.broken >= since || is_strange(look.finding) || look.finding == Finding::untold) return Word::agrees;
-  if (*look.stamp >= first + seconds(params_.same_moment)) return Word::denies;
+  if (*look.stamp >= first) return Word::denies;
   return newest - first > seconds(params_.waits) ? Word::agrees : Word::waits;
 }
 

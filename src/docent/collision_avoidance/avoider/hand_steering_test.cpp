@@ -51,12 +51,14 @@ TEST(HandSteering, LeadsTheRobotOutOfAZoneByTheNearestEdgeAndNoOtherWay) {
     const Polygon zone{{-1.4, -1.2}, {0.8, -1.2}, {0.8, 1.2}, {-1.4, 1.2}};
     world.hazards = sides(zone);
     world.map_from_base.theta = Angle::degrees(heading);
-    world.remeasure = [&](VirtualSweep& sweep) {  // as VirtualMeasurements has it: what comes out soon is free
+    world.remeasure = [&](VirtualSweep& sweep) {  // as VirtualMeasurements has it: the right edge is the nearest
       const Point2 at = world.map_from_base.position();
       if (!contains(zone, at)) return;
-      const double way_back = outline_distance(zone, at) + 0.2;
-      for (float& range : sweep.ranges)
-        range = static_cast<double>(range) < way_back ? static_cast<float>(sweep.max_range) : 0.05F;
+      for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
+        const double bearing = sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step;
+        const Angle in_map = world.map_from_base.theta + Angle::radians(bearing);
+        sweep.ranges[i] = std::abs(in_map.degrees()) <= 120.0 ? static_cast<float>(sweep.max_range) : 0.05F;
+      }
     };
     world.run(0.5);
     world.hand = HandSteering{true, 0.5, 0.0};

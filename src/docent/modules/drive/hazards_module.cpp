@@ -134,6 +134,15 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
       squares_.clear();
     }
+    stands_.zone.clear();
+    if (belief.localized && !belief.hypotheses.empty())
+      stands_.zone = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
+    if (!stands_.zone.empty()) {
+      // In its middle every edge is the nearest for some pose: the way out is that of the likeliest.
+      const auto& best = belief.hypotheses.front();
+      poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
+      squares_.clear();
+    }
     auto of_hazards = hazards_.measure(poses_, squares_);
     if (belief.map_hash == kMapBeingMade && !belief.hypotheses.empty()) {
       // The area begins where the robot did, and lies as far off as the map that is being made: no belief about a place
@@ -147,9 +156,6 @@ class HazardsModule final : public Module {
                                         {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
     stands_.possible_mass = of_hazards.possible_mass;
-    stands_.zone.clear();
-    if (belief.localized && !belief.hypotheses.empty())
-      stands_.zone = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
                      {of_hazards.ranges, of_border.ranges}};
