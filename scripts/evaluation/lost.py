@@ -14,6 +14,7 @@ MUSEUMS = ["bonn", "smithsonian"]
 CARRIED_UNSEEN = ["--set", "evaluation.misses_carrying=true"]
 LOGS = {"--claims": "claims.csv", "--event-log": "events.csv", "--health-log": "health.csv", "--drive-log": "drive.csv"}
 SURE = 0.01  # P(lost)
+SCAN_S, LATENCY_S, BRAKES = 0.1, 0.18, 1.0  # [s], [s], [m/s2] of the simulated base: from a scan to the wheels, and their braking
 
 
 def most_likely(failures, trials):
@@ -69,6 +70,12 @@ def stood_after(drive, begin, end):
     return next((float(row["time"]) - begin for row in drive if begin < float(row["time"]) < end and abs(float(row["speed"])) < 0.02), None)
 
 
+def is_in_time(kidnap):
+    """Whether it could have stood before: set down with its wheels at speed, nobody can, whatever is noticed. It brakes from the first scan on."""
+    after, _ = kidnap["reached"]
+    return after > SCAN_S + LATENCY_S + kidnap["speed"] / BRAKES
+
+
 def kidnaps_of(logs):
     """One dictionary a kidnap."""
     times = [float(row["time"]) for row in logs["events.csv"] if row["source"] == "scenario" and row["kind"] == "kidnap"]
@@ -96,17 +103,19 @@ def hazards(simulations, options, verdict):
             moving = [kidnap for kidnap in kidnaps if kidnap["speed"] > 0.1]
             stood = sorted(kidnap["stood"] if kidnap["stood"] is not None else math.inf for kidnap in moving)
             found = sorted(kidnap["found"] for kidnap in kidnaps if kidnap["found"] is not None)
-            hit = [kidnap["reached"] for kidnap in kidnaps if kidnap["reached"]]
+            hit = [kidnap["reached"] for kidnap in kidnaps if kidnap["reached"] and is_in_time(kidnap)]
+            rolled = sum(bool(kidnap["reached"]) and not is_in_time(kidnap) for kidnap in kidnaps)
             rows.append([name, museum, len(kidnaps), len(moving), f"{stood[len(stood) // 2]:.2f}" if stood else "-",
-                         f"{stood[int(0.95 * len(stood))]:.2f}" if stood else "-", len(hit),
+                         f"{stood[int(0.95 * len(stood))]:.2f}" if stood else "-", rolled, len(hit),
                          " ".join(f"{what}@{after:.1f}" for after, what in hit) or "-", len(found),
                          f"{found[len(found) // 2]:.1f}" if found else "-"])
             if settings:
                 verdict.want(f"{name}, {museum}: fails as it must", rate(len(hit), len(kidnaps)), len(hit) > 0)
             else:
+                verdict.note(f"{museum}: set down with its wheels at speed, nearer than it can brake", f"{rolled} of {len(kidnaps)}")
                 verdict.want(f"{museum}: carried off to beside hazards, at most 1 % reach one", rate(len(hit), len(kidnaps)),
                              len(kidnaps) >= 5 * len(calls) and len(hit) <= 0.01 * len(kidnaps))
-    print_table(["robot", "museum", "kidnaps", "while it drove", "stood after s", "95 % s", "reached", "which, after s", "found itself",
+    print_table(["robot", "museum", "kidnaps", "while it drove", "stood after s", "95 % s", "rolled on to one", "reached one", "which, after s", "found itself",
                  "median s"], rows)
 
 
