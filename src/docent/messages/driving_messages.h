@@ -144,6 +144,9 @@ struct AvoidState {
   std::vector<Candidate> window;
   bool low_obstacle =
       false;  ///< it, or what has touched the robot here, lies below the lasers, which see nobody: a thing
+  /// How often, since `avoid` began, the scans could not follow one another, whatever the base did: somebody has
+  /// carried the robot elsewhere.
+  std::uint32_t carried_off = 0;
   template <class Self, class V>
   static void visit(Self& m, V& v) {
     v("header", m.header);
@@ -158,6 +161,7 @@ struct AvoidState {
     v("nearest_virtual_m", m.nearest_virtual_m);
     v("window", m.window);
     v("low_obstacle", m.low_obstacle);
+    v("carried_off", m.carried_off);
   }
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <variant>
 
 #include "docent/simulator/simulated_museum_impl.h"
@@ -60,7 +61,8 @@ void SimulatedMuseum::Impl::play(const Kidnap& event) {
   const Point2 here = body_.pose().position();
   const bool is_near = event.shift > 0.0;
   const int tries = is_near ? 20000 : 200;
-  for (int i = 0; !to && i < tries; ++i) {
+  if (event.near_hazards > 0.0) to = place_near_hazard(event.near_hazards);
+  for (int i = 0; !to && i < tries && event.near_hazards == 0.0; ++i) {
     to = random_start(world_, crowd_.floor(), place_rng_, 0.6, here, is_near ? 0.0 : 3.0);
     if (to && hazard_distance(to->position()) < event.from_hazards) to.reset();
     if (to && is_near && distance(to->position(), here) > event.shift) to.reset();
@@ -81,6 +83,20 @@ void SimulatedMuseum::Impl::play(const Kidnap& event) {
   has_fallen_ = false;
   log_.forget();
   offer("kidnap", "");
+}
+
+std::optional<Pose2> SimulatedMuseum::Impl::place_near_hazard(double within) {
+  constexpr double kBeside = 0.05;  // [m] from everything: nobody sets it down on a thing
+  const double radius = body_.params().radius;
+  const auto [low, high] = crowd_.floor().bounds();
+  for (int i = 0; i < 200000; ++i) {
+    const Point2 at{place_rng_.uniform(low.x, high.x), place_rng_.uniform(low.y, high.y)};
+    const Angle heading = Angle::radians(place_rng_.uniform(-std::numbers::pi, std::numbers::pi));
+    const double away = hazard_distance(at) - radius;
+    const bool is_there = away >= kBeside && away <= within && contains(world_.floor, at);
+    if (is_there && crowd_.floor().clearance(at) >= radius + kBeside) return Pose2{at.x, at.y, heading};
+  }
+  return std::nullopt;
 }
 
 double SimulatedMuseum::Impl::hazard_distance(Point2 point) const {

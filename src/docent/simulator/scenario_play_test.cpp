@@ -28,6 +28,18 @@ TEST(ScenarioPlay, AKidnapMayTurnTheRobotAndShiftItALittle) {
   EXPECT_LE(distance(pose.position(), {3.0, 4.0}), 1.5);
 }
 
+TEST(ScenarioPlay, AKidnapMayEndBesideAHazard) {
+  const SimulationOptions near = playing("events:\n  - {at: 1, kidnap: {near_hazards: 0.3}}\n");
+  Bench bench{near};
+  bench.run(2.0);
+  double gap = 1e9;
+  for (const Solid& solid : near.world.solids)
+    if (solid.kind == SolidKind::glass || solid.kind == SolidKind::plate || solid.kind == SolidKind::stairs)
+      gap = std::min(gap, distance(solid.polygon, Point2{bench.state.x, bench.state.y}) - 0.265);
+  EXPECT_GE(gap, 0.04);
+  EXPECT_LE(gap, 0.31);
+}
+
 TEST(ScenarioPlay, WhatWaitsForAMomentHoldsUpNothingElse) {
   Bench bench{playing(R"(events:
   - {at: 1, during: explaining, after: 2, kill: {module: mission}}

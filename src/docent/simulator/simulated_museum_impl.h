@@ -77,6 +77,8 @@ class SimulatedMuseum::Impl {
   // scenario_play.cpp: what a scenario does.
   void play_scenario();
   void play(const Kidnap& event);
+  /// The robot's outline at most so far [m] from a hazard; nullopt: no room.
+  [[nodiscard]] std::optional<Pose2> place_near_hazard(double within);
   [[nodiscard]] double hazard_distance(Point2 point) const;
   void play(const SensorFault& event);
   void play(const Stool& event);

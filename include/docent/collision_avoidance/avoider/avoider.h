@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "docent/collision_avoidance/avoider/avoider_params.h"
+#include "docent/collision_avoidance/avoider/carried_off.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
 #include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
@@ -88,7 +89,10 @@ class Avoider {
   /// Endpoints that localization found unmapped, base frame at `stamp`.
   void add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized);
   /// What localization believes: it slows the robot where that is little (safety rule 4).
-  void add_belief(const BeliefOutline& belief) { doubt_.believe(belief); }
+  void add_belief(const BeliefOutline& belief) {
+    doubt_.believe(belief);
+    says_here_ = belief.localized;
+  }
   /// The map that lasers are compared with, where the robot believes to be; before the first sweep.
   void know_map(const std::shared_ptr<const OccupancyGrid>& map) { inputs_.know_map(limits_, map); }
   /// The best hypothesis of a belief. @param raw_from_robot  odometry at its stamp, as the base says it
@@ -113,6 +117,10 @@ class Avoider {
   /// people may come nearer than is forgivable.
   [[nodiscard]] std::optional<AvoiderDecision> reflex(Time now);
 
+  /// How often, since it began, the scans could not follow one another: somebody has carried the robot.
+  [[nodiscard]] std::uint32_t times_carried_off() const { return carried_off_.times(); }
+  /// It does not know yet where it was put.
+  [[nodiscard]] bool is_carried_off() const { return carried_off_.is_unsettled(); }
   /// What was seen, odometry's frame.
   [[nodiscard]] const ObstacleMemory& memory() const { return surroundings_.memory(); }
   [[nodiscard]] const Velocity& command() const { return command_; }  ///< the last one given
@@ -168,6 +176,8 @@ class Avoider {
   DynamicWindow window_;  ///< for turns on the spot and by hand
   Surroundings surroundings_;
   InputWatches inputs_;
+  CarriedOff carried_off_;
+  bool says_here_ = false;  ///< the newest belief
   ContactWatch contact_;
   PositionDoubt doubt_;
   LocalTime local_time_;

@@ -141,6 +141,8 @@ class VirtualMeasurements {
   };
   const Surroundings& surroundings_of(Point2 position);
   void fill(Row& row, Point2 position, std::span<const Segment> borders) const;
+  /// [m] to the nearest edge of the hazard that holds a position; nullopt: none does.
+  [[nodiscard]] std::optional<Point2> way_out(Point2 position) const;
   void fill_from_outside(Row& row, Point2 position) const;
   /// A place just inside the border for one that lies on it or beyond: its border is where the robot is, and all ways
   /// inwards are open. Other places stay.

@@ -88,6 +88,8 @@ class Verdict {
   void look(const Glance& glance);
   /// After a restart or a given start: the mode was known already, and needs one confirmation only.
   void assume_localized();
+  /// Somebody has carried the robot, so others found: it knows nothing until it is confirmed anew.
+  void uproot();
   void reset();  ///< back to "I do not know"
 
   [[nodiscard]] bool localized() const { return localized_; }  ///< it may say "here"

@@ -44,6 +44,10 @@ class Localizer {
   /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
   void start_at(std::span<const BeliefMode> modes, const Pose2& odom_from_robot, Time time);
 
+  /// Somebody has carried the robot since the last update, as its scans say: half of the belief goes elsewhere, and it
+  /// knows nothing until it is confirmed anew.
+  void uproot();
+
   /// What `observe` did.
   struct Step {
     bool updated = false;            ///< the belief has changed
@@ -126,7 +130,8 @@ class Localizer {
   PoseRefiner refiner_;
   Tracks tracks_;
   Rng rng_;
-  bool started_ = false;  ///< odometry of the last update is known
+  bool is_uprooted_ = false;  ///< since the last update
+  bool started_ = false;      ///< odometry of the last update is known
   Pose2 odom_from_robot_;
   std::size_t phase_ = 0;  ///< see `thinned`
   BeliefSummary summary_;

@@ -29,6 +29,7 @@ Avoider::Avoider(const BaseLimits& limits, const AvoiderParams& params, std::vec
       window_{limits, params.window},
       surroundings_{limits, params.surroundings(), params.virtual_obstacles()},
       inputs_{limits, params.inputs(), std::move(lasers)},
+      carried_off_{inputs_.lasers(), params.carried_off},
       unbroken_{of_base(limits, params.odometry)},
       sweep_order_(inputs_.lasers()),
       max_speed_{std::min(params.first_max_speed, limits.max_speed)} {}
@@ -55,7 +56,10 @@ void Avoider::add_sweep(Time now, std::size_t sensor, SensorSweep sweep) {
   const Pose2 odom_from_base = odometry_.pose_at(sweep.stamp);
   constexpr Duration kCarriedOn = std::chrono::milliseconds{250};  // odometry that is so old tells of no motion
   const bool is_motion_known = sweep.stamp - odometry_.newest_stamp() <= kCarriedOn;
-  if (params_.watches) sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base, is_motion_known);
+  if (params_.watches) {
+    sweep = inputs_.judge_sweep(sensor, std::move(sweep), odom_from_base, is_motion_known);
+    if (params_.stops_when_carried_off) carried_off_.see(sensor, sweep.stamp, inputs_.succession_of(sensor));
+  }
   surroundings_.add_sweep(sensor, std::move(sweep), odom_from_base);
 }
 
@@ -135,6 +139,7 @@ void Avoider::add_place(Time now, Time stamp, const Pose2& map_from_robot, const
   const Pose2 map_from_odom = map_from_robot * inverse(unbroken_.odom_from_raw(taken) * raw_from_robot);
   inputs_.believe(taken, map_from_odom, mass);
   surroundings_.felt().believe(map_from_odom, mass);
+  carried_off_.believe(taken, says_here_);
 }
 
 void Avoider::add_person_beams(Time now, Time stamp, std::span<const Point2> in_base, bool localized) {
@@ -187,6 +192,7 @@ void Avoider::cap_by_knowledge(Time now, SpeedCap& cap) const {
   if (const auto found = complaint(now)) cap.lower(found->max_speed, found->reason);
   inputs_.cap_by_age(now, max_speed_, cap);
   inputs_.cap_by_proof(cap);
+  carried_off_.cap(now, cap);
   if (const auto measured = surroundings_.virtual_obstacles().stamp())
     inputs_.cap_by_position(now, odometry_.driven_since(*measured), max_speed_, cap);
 }
@@ -262,7 +268,7 @@ std::optional<std::string> Avoider::reason_to_stand(Time now) const {
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return "";
   if (target_freshness_.age(now) > params_.target_timeout) return "no fresh target";
   if (is_touched(now, contact_.stands_for())) return to_text(ReasonWord::touched);
-  return std::nullopt;
+  return target_->mode == AvoiderTarget::Mode::drive ? carried_off_.forbids_driving(now) : std::nullopt;
 }
 
 const HandSteering* Avoider::hand(Time now) const {
@@ -399,6 +405,8 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   const HandSteering* wish = hand(now);
   if (wish != nullptr && (!wish->is_pressed || now - hand_->said > seconds(params_.hand.watchdog)))
     return stand(now, std::move(decision), to_text(ReasonWord::steered_by_hand));
+  if (auto why = carried_off_.forbids_driving(now); why && wish == nullptr && command_.linear != 0.0)
+    return stand(now, std::move(decision), std::move(*why));
   if (is_touched(now, params_.touch.brakes_for)) return stand(now, std::move(decision), to_text(ReasonWord::touched));
   const BaseState start = state_when_effective(now);
   // A disc turns in its own place; another body sweeps more.

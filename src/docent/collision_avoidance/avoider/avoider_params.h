@@ -4,6 +4,7 @@
 #include <string>
 
 #include "docent/base/result.h"
+#include "docent/collision_avoidance/avoider/carried_off.h"
 #include "docent/collision_avoidance/avoider/carrot.h"
 #include "docent/collision_avoidance/avoider/hand_steering.h"
 #include "docent/collision_avoidance/avoider/input_watches.h"
@@ -67,10 +68,11 @@ struct AvoiderParams {
   double sonar_speed = 0.3;   ///< [m/s] > 0, at most, of a robot without lasers: sonars see 1.5 m far, twice a second
   bool has_infrared = false;  ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;
-  bool has_lasers = true;        ///< false: the ring of sonars tells what is free
-  bool blind_to_people = false;  ///< crippled, for evaluation: sees virtual measurements and touch only
-  bool remembers_touch = true;   ///< false: likewise: what was touched is forgotten
-  bool watches = true;           ///< false: likewise: takes every sensor and belief for well
+  bool has_lasers = true;              ///< false: the ring of sonars tells what is free
+  bool blind_to_people = false;        ///< crippled, for evaluation: sees virtual measurements and touch only
+  bool remembers_touch = true;         ///< false: likewise: what was touched is forgotten
+  bool stops_when_carried_off = true;  ///< false: likewise: drives on by what it believed before
+  bool watches = true;                 ///< false: likewise: takes every sensor and belief for well
   motion_models::UnbrokenOdometryParams odometry{};  ///< its base is the body's
 
   // What no robot.yaml needs to change.
@@ -82,6 +84,7 @@ struct AvoiderParams {
   ReflexParams reflex{};
   HandParams hand{};
   CarrotParams carrot{};
+  CarriedOffParams carried_off{};
 
   template <class V>
   void visit(V& v) {

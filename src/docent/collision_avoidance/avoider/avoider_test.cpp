@@ -101,6 +101,71 @@ TEST(Avoider, AJumpOfTheOdometrySlowsItAndMovesNothingThatItKnows) {
   EXPECT_NEAR(world.map_from_base.y, 0.0, 0.1) << "targets are carried over the jump";
 }
 
+/// A furnished hall in which the robot drives fast, and somebody carries it off.
+class CarriedAway : public ::testing::Test {
+ protected:
+  CarriedAway() {
+    world.box(-3, -5, 40, 5);
+    for (const double x : {6.0, 13.0, 21.0}) world.people.push_back({{x, 2.5}});
+    world.walls.push_back({{16, -5}, {16, -2}});
+    world.checks_choices = true;
+    world.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+    world.run(5);
+  }
+  /// Its wheels do not notice.
+  void carry_to(const Pose2& place) {
+    world.raw_from_map = world.raw_from_map * world.map_from_base * inverse(place);
+    world.map_from_base = place;
+  }
+  void believe(bool says_here) {
+    const BelievedPose pose{world.map_from_base, 1.0};
+    world.avoider.add_belief({{&pose, 1}, {&pose, 1}, says_here ? 0.001 : 0.9, says_here});
+    world.avoider.add_place(world.now, world.now, pose.map_from_robot, world.raw_from_map * world.map_from_base, 1.0);
+  }
+  Rehearsal world;
+};
+
+TEST_F(CarriedAway, ItStopsWithinHalfASecondAndTurnsOnlyUntilItKnowsWhereItIs) {
+  ASSERT_GT(world.velocity.linear, 0.5);
+  EXPECT_EQ(world.avoider.times_carried_off(), 0U);
+  carry_to({33, -3, Angle::degrees(130)});
+  world.run(0.3);
+  EXPECT_EQ(world.avoider.command().linear, 0.0);
+  EXPECT_EQ(world.avoider.times_carried_off(), 1U);
+  world.run(3.0);
+  const Pose2 here = world.map_from_base;
+  world.target.mode = AvoiderTarget::Mode::turn;
+  world.target.heading = here.theta + Angle::degrees(120);
+  world.run(1.0);
+  EXPECT_GT(std::abs(world.velocity.angular), 0.5) << world.decision.reason;
+  world.target.mode = AvoiderTarget::Mode::drive;
+  for (int i = 0; i < 6; ++i) {
+    believe(false);
+    world.run(0.5);
+  }
+  EXPECT_LT(distance(world.map_from_base.position(), here.position()), 0.05);
+  for (int i = 0; i < 4; ++i) {
+    believe(true);
+    world.run(0.5);
+  }
+  EXPECT_FALSE(world.avoider.is_carried_off());
+  world.run(2.0);
+  EXPECT_GT(world.velocity.linear, 0.2) << world.decision.reason;
+}
+
+TEST_F(CarriedAway, ARobotThatMissesItDrivesOn) {
+  AvoiderParams params = Rehearsal::without_sonar();
+  params.stops_when_carried_off = false;
+  Rehearsal other{1, params};
+  other.walls = world.walls;
+  other.drive_to({{2, 0}, {4, 0}, {8, 0}, {30, 0}});
+  other.run(5);
+  other.raw_from_map = other.map_from_base * inverse(Pose2{33, -3, Angle::degrees(130)});
+  other.map_from_base = {33, -3, Angle::degrees(130)};
+  other.run(0.3);
+  EXPECT_GT(other.avoider.command().linear, 0.3);
+}
+
 TEST(Avoider, TheClocksOfOtherComputersDoNotBlindIt) {
   for (const double sensor : {0.0, 5.0, -5.0, 0.6, -0.6}) {
     for (const double odometry : {0.0, sensor, -sensor}) {

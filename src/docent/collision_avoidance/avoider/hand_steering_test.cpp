@@ -45,6 +45,32 @@ TEST(HandSteering, NeverDrivesIntoAnything) {
   EXPECT_GT(world.least_wall, 0.02);
 }
 
+TEST(HandSteering, LeadsTheRobotOutOfAZoneByTheNearestEdgeAndNoOtherWay) {
+  for (const double heading : {0.0, 90.0}) {
+    Rehearsal world = in_a_hall();
+    const Polygon zone{{-1.4, -1.2}, {0.8, -1.2}, {0.8, 1.2}, {-1.4, 1.2}};
+    world.hazards = sides(zone);
+    world.map_from_base.theta = Angle::degrees(heading);
+    world.remeasure = [&](VirtualSweep& sweep) {  // as VirtualMeasurements has it: the right edge is the nearest
+      const Point2 at = world.map_from_base.position();
+      if (!contains(zone, at)) return;
+      for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
+        const double bearing = sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step;
+        const Angle in_map = world.map_from_base.theta + Angle::radians(bearing);
+        sweep.ranges[i] = std::abs(in_map.degrees()) <= 120.0 ? static_cast<float>(sweep.max_range) : 0.05F;
+      }
+    };
+    world.run(0.5);
+    world.hand = HandSteering{true, 0.5, 0.0};
+    world.run(12.0);
+    if (heading == 0.0) {
+      EXPECT_GT(world.map_from_base.x, 1.2) << world.decision.reason;
+    } else {
+      EXPECT_LT(world.map_from_base.y, 0.1) << "towards the middle of a side farther away";
+    }
+  }
+}
+
 TEST(HandSteering, AHandThatLetsGoOrFallsSilentStopsTheRobot) {
   for (const bool falls_silent : {true, false}) {
     Rehearsal world = in_a_hall();

@@ -63,6 +63,8 @@ class InputWatches {
       if (i != laser) others.push_back(scanners_[i].word());
     return scanners_[laser].judge(std::move(sweep), odom_from_base, is_motion_known, others, echoes_.all());
   }
+  /// Whether its newest sweep can follow those before it.
+  [[nodiscard]] Succession::Finding succession_of(std::size_t laser) const { return scanners_[laser].word().follows; }
   /// Where the robot believes to be, odometry's frame at `stamp`. @param mass  of the belief there
   void believe(Time stamp, const Pose2& map_from_odom, double mass) {
     for (ScannerWatch& scanner : scanners_) scanner.believe(stamp, map_from_odom, mass);

@@ -50,7 +50,8 @@ class Rehearsal {
   float blind_range = std::numeric_limits<float>::quiet_NaN();
   double front_missing = 0.0;                                     ///< share of the front laser's readings that are none
   std::function<void(SensorSweep&)> spoil = [](SensorSweep&) {};  ///< done to what both lasers say
-  bool virtual_is_nan = false;                                    ///< one of the virtual measurements
+  std::function<void(VirtualSweep&)> remeasure = [](VirtualSweep&) {};  ///< done to what was measured virtually
+  bool virtual_is_nan = false;                                          ///< one of the virtual measurements
   double sensor_clock = 0.0;    ///< [s] before ours, of the lasers' computer, which localizes
   double odometry_clock = 0.0;  ///< [s] of the base's
   Pose2 raw_from_map;           ///< what the odometry has made of the map: a change is a jump
@@ -208,6 +209,7 @@ class Rehearsal {
       }
       sweep.ranges.push_back(static_cast<float>(range));
     }
+    remeasure(sweep);
     if (virtual_is_nan) sweep.ranges[7] = std::nanf("");
     avoider.add_virtual(now, sweep);
   }

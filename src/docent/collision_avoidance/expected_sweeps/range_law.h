@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ struct RangeLaw {
   double offset = 0.0;  ///< [m]
 
   [[nodiscard]] bool is_as_expected(double share) const { return as_expected >= share * compared; }
+  /// nullopt: fewer than `least` were compared.
+  [[nodiscard]] std::optional<double> share_as_expected(int least) const {
+    return compared >= least ? std::optional{static_cast<double>(as_expected) / compared} : std::nullopt;
+  }
 };
 
 /// The greater one of the middle two; `values` change their order. @pre not empty. O(values)

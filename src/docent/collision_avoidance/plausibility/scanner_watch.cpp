@@ -29,6 +29,7 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       motion_{params.motion},
       repeats_{params.repeats},
       old_{params.old},
+      succession_{limits, params.succession},
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
@@ -390,6 +391,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   if (!is_motion_known) {
     motion_.forget();
     old_.forget();
+    forget_succession();
     before_.reset();
     walls_.reset();
     lies_ = 0;
@@ -409,6 +411,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     }
     judge_age(view, sweep, odom_from_base);
     judge_onset(view, others);
+    judge_succession(view);
     judge_motion(view);
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);

@@ -8,6 +8,7 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/succession.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
 #include "docent/collision_avoidance/plausibility/motion_check.h"
@@ -30,6 +31,7 @@ struct ScannerWatchParams {
   MotionCheckParams motion{};
   MapCheckParams map{};
   RingCheckParams rings{};
+  SuccessionParams succession{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
   double alone_speed = 0.1;     ///< [m/s] likewise, without sonars and lost on a map: a factor shows after 0.3 m of way
@@ -83,13 +85,14 @@ class ScannerWatch {
 
   /// What a scanner says of the last moments to the others: who is carried off is so with all of them.
   struct Word {
-    Time newest{};                     ///< sweep that could be compared
-    Time unbroken{};                   ///< since when each was as the one before let expect
-    Time broken{};                     ///< when the last break began
-    std::optional<RangeLaw> law{};     ///< that holds for the newest sweeps instead
-    Time fits_map{};                   ///< when it was last as the map has it
-    std::optional<RangeLaw> by_map{};  ///< that holds by the map instead
-    Time remounted{};                  ///< when it was found to be mounted elsewhere
+    Time newest{};                                              ///< sweep that could be compared
+    Time unbroken{};                                            ///< since when each was as the one before let expect
+    Time broken{};                                              ///< when the last break began
+    std::optional<RangeLaw> law{};                              ///< that holds for the newest sweeps instead
+    Time fits_map{};                                            ///< when it was last as the map has it
+    std::optional<RangeLaw> by_map{};                           ///< that holds by the map instead
+    Time remounted{};                                           ///< when it was found to be mounted elsewhere
+    Succession::Finding follows = Succession::Finding::untold;  ///< whether the newest sweep can follow those before
   };
   [[nodiscard]] const Word& word() const { return word_; }
 
@@ -125,6 +128,15 @@ class ScannerWatch {
   /// A mount was found to be another one: what was seen before lies elsewhere, and what did not fit it was no lie.
   void follow_mount(const SensorSweep& sweep);
   void judge_form(const SensorSweep& sweep);
+  /// Somebody may have carried the robot. A scanner that lies, or seems to, tells nothing of that.
+  void judge_succession(const SweepView& view) {
+    if (form_fault_ != FormFault::none || lie_ || lies_ > 0) return forget_succession();
+    word_.follows = succession_.add(view, before_says_.share_as_expected(params_.law.least));
+  }
+  void forget_succession() {
+    succession_.forget();
+    word_.follows = Succession::Finding::untold;
+  }
   void judge_onset(const SweepView& view, std::span<const Word> others);
   /// Something has happened that is no lie: the robot was carried off, or a crowd has closed in.
   void begin_anew(const SweepView& view);
@@ -168,6 +180,7 @@ class ScannerWatch {
   MotionCheck motion_;
   RepeatedSweeps repeats_;
   OldSweeps old_;
+  Succession succession_;
   BlindSectors sectors_;
   BlindSectors of_map_;  ///< that the map alone shows, not yet believed
   int of_map_row_ = 0;

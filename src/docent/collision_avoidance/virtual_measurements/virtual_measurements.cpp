@@ -168,13 +168,31 @@ void VirtualMeasurements::fill(Row& row, Point2 position, std::span<const Segmen
   for (std::size_t i = 0; i < ranges.size(); ++i) row.bins[i] = bin_of(ranges[i]);
 }
 
+std::optional<Point2> VirtualMeasurements::way_out(Point2 position) const {
+  for (const Polygon& hazard : hazards_) {
+    if (!contains(hazard, position)) continue;
+    Point2 nearest = hazard.front();
+    for (const Segment& side : sides(hazard))
+      if (const Point2 foot = nearest_point(side, position); distance(foot, position) < distance(nearest, position))
+        nearest = foot;
+    return nearest - position;
+  }
+  return std::nullopt;
+}
+
 void VirtualMeasurements::fill_from_outside(Row& row, Point2 position) const {
-  for (int i = 0; i < kDirections; ++i) {
-    const Point2 direction = unit(Angle::radians(i * kStep));
+  const auto out = way_out(position);
+  const auto leads_back = [&](Point2 direction) {
+    // Whatever is within reach lets the body go away from it alone: so it may go within 30 degrees of the way out.
+    if (out) return dot(direction, *out) >= -0.5 * norm(*out);
     bool returns = false;
     for (double way = kBin; way <= params_.reentry && !returns; way += kBin)
       returns = is_possible(position + way * direction);
-    row.bins[static_cast<std::size_t>(i)] = returns ? static_cast<std::uint8_t>(kBins - 1) : std::uint8_t{1};
+    return returns;
+  };
+  for (int i = 0; i < kDirections; ++i) {
+    const bool is_free = leads_back(unit(Angle::radians(i * kStep)));
+    row.bins[static_cast<std::size_t>(i)] = is_free ? static_cast<std::uint8_t>(kBins - 1) : std::uint8_t{1};
   }
 }
 

@@ -244,6 +244,15 @@ TEST(VirtualMeasurements, ARobotThatIsSurelyOutsideMayOnlyComeBack) {
   EXPECT_LE(scan.ranges[135], 0.051);
 }
 
+TEST(VirtualMeasurements, ARobotRoundWhichAHazardWasDrawnMayLeaveByTheNearestEdgeAlone) {
+  VirtualMeasurements measurements{kArea, {kPlate}, {}};
+  const WeightedPose inside{{5.3, 4.0}, 0.0, 1.0};  // the nearest edge is 0.7 m ahead
+  const auto scan = measurements.measure({&inside, 1}, {});
+  EXPECT_EQ(scan.ranges[90], VirtualMeasurements::kMaxRange);
+  EXPECT_LE(scan.ranges[0], 0.051) << "back, 1.3 m";
+  EXPECT_LE(scan.ranges[158], 0.051) << "back to the left: nothing there lets it go to the left";
+}
+
 TEST(VirtualMeasurements, TheRestCountsWithItsNearestHazardInEveryDirection) {
   VirtualMeasurements measurements{kArea, {kPlate}, {}};
   const WeightedPose pose{{2.0, 4.0}, 0.0, 0.98};

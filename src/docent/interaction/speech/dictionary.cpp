@@ -39,6 +39,7 @@ constexpr std::array<const char*, kSentences> kKeys{
     "free_charger",
     "mend_charger",
     "stay_behind",
+    "step_back",
     "greeting",
     "next_exhibit",
     "farewell",

@@ -40,6 +40,7 @@ enum class Sentence {
   free_charger,    ///< before a charger on which something stands: to whoever can make room, or call the staff
   mend_charger,    ///< at a charger that gives no current: to whoever can call the staff
   stay_behind,     ///< to people who walk ahead of the robot or crowd round it: they shall walk behind it
+  step_back,       ///< to people all round a robot that does not know where it is: they hide what it looks for
   greeting,        ///< when a tour begins
   next_exhibit,    ///< in a tour: {title} comes next
   farewell,        ///< when a tour is over

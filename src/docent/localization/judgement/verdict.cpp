@@ -71,6 +71,12 @@ void Verdict::assume_localized() {
   keeps_its_place_ = true;
 }
 
+void Verdict::uproot() {
+  localized_ = keeps_its_place_ = false;
+  doubtful_ = 0;
+  confirmed_ = way_ = turn_ = 0.0;
+}
+
 void Verdict::add(const Evidence& evidence) {
   const Agreement& readings = evidence.readings;
   constexpr double kMemory = 0.25;        // an update's share in the running means
@@ -129,10 +135,7 @@ void Verdict::look(const Glance& glance) {
   constexpr int kPatience = 8;          // glances: somebody who steps before the robot is a doubt for less
   const bool was_judged = mass_ > 0.0;  // not yet where the place was given
   doubtful_ = keeps_its_place_ && was_judged && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
-  if (doubtful_ < kPatience) return;
-  localized_ = keeps_its_place_ = false;
-  doubtful_ = 0;
-  confirmed_ = way_ = turn_ = 0.0;
+  if (doubtful_ >= kPatience) uproot();
 }
 
 double Verdict::p_lost(bool has_said) const {

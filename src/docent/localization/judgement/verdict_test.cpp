@@ -36,6 +36,17 @@ TEST(Verdict, SaysThatItDoesNotKnowUntilItDoes) {
   EXPECT_TRUE(sure().localized());
 }
 
+TEST(Verdict, WhoWasCarriedOffKnowsNothingUntilConfirmedAnew) {
+  Verdict verdict = sure();
+  verdict.uproot();
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_FALSE(verdict.keeps_its_place());
+  verdict.add(good());
+  EXPECT_FALSE(verdict.localized()) << "one update is not enough";
+  for (int i = 0; i < 20; ++i) verdict.add(good());
+  EXPECT_TRUE(verdict.localized());
+}
+
 TEST(Verdict, AScanAfterALongWayConfirmsForSeveral) {
   Evidence sparse = good();
   sparse.way = 2.0;

@@ -57,6 +57,18 @@ void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_fr
   summarise_now();
 }
 
+void Localizer::uproot() {
+  constexpr double kProbably = 0.5;  // of the mass: the scans may err, as where a crowd closes in at once
+  if (!started_ || params_.reckons_dead) return;
+  verdict_.uproot();
+  refiner_.reset();
+  cadence_.come_elsewhere();
+  is_uprooted_ = true;
+  if (summary_.modes.empty()) return;
+  belief_->believe(summary_.modes, kProbably, rng_);
+  summarise_now();
+}
+
 Localizer::Step Localizer::observe(const sensor_models::RangeSweep& seen, const Pose2& odom_from_robot, Time time) {
   if (params_.reckons_dead && verdict_.localized()) return {};
   if (is_torn(odom_from_robot)) start_unknown();
@@ -90,6 +102,7 @@ Localizer::Update Localizer::due(const sensor_models::RangeSweep& sweep, const P
   if (update.weight < 1.0 && verdict_.keeps_its_place() && cadence_.waited(time) >= kSurpriseWaits &&
       verdict_.startled())
     update.weight = 1.0;
+  if (is_uprooted_) update.weight = 1.0;
   return update;
 }
 
@@ -122,7 +135,7 @@ void Localizer::reweigh(Update& update) {
                                 .views = update.views,
                                 .sector_nats = params_.sector_nats(update.on_persons),
                                 .keeps_its_place = verdict_.keeps_its_place(),
-                                .in_doubt = verdict_.contradicted() || verdict_.startled(),
+                                .in_doubt = verdict_.contradicted() || verdict_.startled() || is_uprooted_,
                                 .focus = update.focus};
   const auto [weight, work] = belief_->reweigh(evidence, rng_);
   update.weight = weight;
@@ -141,12 +154,13 @@ void Localizer::summarise_now() {
 }
 
 void Localizer::compare_tracks(const Update& update) {
-  const bool is_view = tracks_.is_due(odom_from_robot_, verdict_.startled());
+  const bool is_startled = verdict_.startled() || is_uprooted_;
+  const bool is_view = tracks_.is_due(odom_from_robot_, is_startled);
   if (is_view) {
     const auto on_persons = params_.on_persons(update.sweep, false);
     const auto best = summary_.modes.empty() ? std::nullopt : std::optional{summary_.modes.front().map_from_robot};
     tracks_.add_view(on_persons.empty() ? update.sweep : without(update.sweep, on_persons), odom_from_robot_,
-                     verdict_.startled(), best);
+                     is_startled, best);
     std::vector<Pose2> modes;
     for (const BeliefMode& mode : summary_.modes)
       if (mode.mass >= kWorthFollowing * summary_.modes.front().mass) modes.push_back(mode.map_from_robot);
@@ -154,6 +168,7 @@ void Localizer::compare_tracks(const Update& update) {
     const bool in_doubt = verdict_.contradicted() || verdict_.p_lost() > kDoubtful;
     if (tracks_.is_search_due(verdict_.keeps_its_place(), in_doubt)) tracks_.search(map_->places);
   }
+  is_uprooted_ = false;
   tracks_.hear(sensors_, update.weight, odom_from_robot_);
   const auto modes = belief_lacks();
   if (!modes) return;

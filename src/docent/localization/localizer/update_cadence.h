@@ -44,6 +44,8 @@ class UpdateCadence {
 
   /// An update is made. `position`: of the robot [m], odom.
   void begin(const Motion& motion, Point2 position, Time now);
+  /// Somebody has carried the robot: what it sees now it has not seen before.
+  void come_elsewhere() { turned_here_ = 0.0; }
   /// What it cost, in states * beams.
   void pay(double work) { last_work_ = work; }
 

@@ -107,6 +107,31 @@ TEST(MarkovLocalizer, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
   EXPECT_LT(drive.error(), 0.3);
 }
 
+TEST(MarkovLocalizer, WhoIsToldThatItWasCarriedOffDoubtsAtOnceAndFindsItselfAnew) {
+  Drive drive;
+  for (int i = 0; i < 120; ++i) drive.step();
+  ASSERT_TRUE(drive.localizer.verdict().localized());
+  drive.truth = {4.3, 3.2, Angle::degrees(-120.0)};
+  drive.localizer.uproot();
+  EXPECT_FALSE(drive.localizer.verdict().localized()) << "before any sweep";
+  EXPECT_LT(drive.localizer.summary().modes.front().mass, 0.8) << "it may be anywhere";
+  int until_found = 0;
+  while ((!drive.localizer.verdict().localized() || drive.error() > 0.3) && until_found < 200)
+    drive.step(), ++until_found;
+  EXPECT_LE(until_found, 75);
+  EXPECT_LT(drive.error(), 0.3);
+}
+
+TEST(MarkovLocalizer, WhoIsToldSoWronglyIsSoonSureAgain) {
+  Drive drive;
+  for (int i = 0; i < 120; ++i) drive.step();
+  drive.localizer.uproot();
+  int until_found = 0;
+  while (!drive.localizer.verdict().localized() && until_found < 100) drive.step(), ++until_found;
+  EXPECT_LE(until_found, 25);  // 5 s
+  EXPECT_LT(drive.error(), 0.1);
+}
+
 TEST(MarkovLocalizer, CrippledItReckonsDeadOnceItIsSure) {
   Drive drive;
   LocalizerParams params = coarse();

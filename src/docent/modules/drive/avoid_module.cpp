@@ -89,6 +89,7 @@ class AvoidModule final : public Module {
 
   [[nodiscard]] ModuleHealth health() const override {
     if (auto complaint = avoider_.complaint_of_inputs(bus_.now())) return {"degraded", std::move(complaint->reason)};
+    if (avoider_.is_carried_off()) return {"degraded", "carried off, as the scans say: not settled yet"};
     return stop_.health();
   }
 
@@ -251,6 +252,7 @@ class AvoidModule final : public Module {
     state.path_blocked = decision.path_blocked;
     state.unmapped_obstacle = decision.unmapped_obstacle;
     state.low_obstacle = decision.low_obstacle;
+    state.carried_off = avoider_.times_carried_off();
     state.nearest_real_m = decision.nearest_real;
     state.nearest_virtual_m = decision.nearest_virtual;
     if (!decision.window.empty() && driven_ - window_shown_ >= seconds(kWindowPeriod - 0.5 * kTick)) {

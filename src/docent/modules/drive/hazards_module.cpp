@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "docent/collision_avoidance/clocks/driver_stamps.h"
 #include "docent/collision_avoidance/clocks/local_time.h"
 #include "docent/collision_avoidance/virtual_measurements/carried_ranges.h"
 #include "docent/collision_avoidance/virtual_measurements/mount_doubt.h"
 #include "docent/collision_avoidance/virtual_measurements/virtual_measurements.h"
+#include "docent/geometry/polygon.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/shared/belief_cells.h"
 
@@ -26,6 +28,13 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
+        stands_{context.museum.hazards,
+                {},
+                1.0,
+                {{context.museum.area,
+                  {},
+                  params_when_stuck(params),
+                  collision_avoidance::VirtualMeasurements::Ends::border}}},
         doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -48,7 +57,10 @@ class HazardsModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!last_) return {"starting", "no belief yet"};
     if (bus_.now() - received_ > seconds(kBeliefLife)) return {"degraded", "no fresh belief"};
-    if (possible_mass_ < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
+    if (!stands_.zone.empty())
+      return {"degraded",
+              "I stand inside the zone '" + stands_.zone + "': an operator may steer me out, or correct the museum"};
+    if (stands_.possible_mass < 0.5) return {"degraded", "the belief lies where the robot cannot be"};
     return {};
   }
 
@@ -64,6 +76,10 @@ class HazardsModule final : public Module {
   /// scans, too: what they take for ours, as they do what comes quicker than that, must be so here.
   static constexpr double kHonestWay = 0.3;
   static constexpr double kTurned = 0.02;  // [rad]
+
+  static constexpr double kStuckAfter = 12.0;   // [s] two turns on the spot
+  static constexpr double kStuckWithin = 0.25;  // [m] of one place
+  static constexpr double kRestErrs = 0.1;      // of the mass
 
   struct Odometry {
     Time stamp{};
@@ -104,6 +120,39 @@ class HazardsModule final : public Module {
     }
   }
 
+  /// The id of the hazard that holds a place, map; empty: none does.
+  [[nodiscard]] std::string zone_at(Point2 place) const {
+    for (const museum::Hazard& zone : stands_.zones)
+      if (contains(zone.polygon, place)) return zone.id;
+    return {};
+  }
+
+  /// Lost, and in one place for long: in narrow corridors a hundredth of the belief has the border all round, and a
+  /// robot that stays there learns nothing more. Then a tenth of it may err about the border, which walls stand near;
+  /// about hazards never more than a hundredth. Until it knows its place.
+  [[nodiscard]] bool is_stuck(const docent_msgs::Belief& belief) {
+    const Pose2 here = from_message(belief.odom_pose);
+    if (belief.localized) stands_.stuck.since.reset(), stands_.stuck.is = false;
+    if (!stands_.stuck.since || distance(here.position(), stands_.stuck.at) > kStuckWithin) {
+      stands_.stuck.since = bus_.now();
+      stands_.stuck.at = here.position();
+    }
+    stands_.stuck.is =
+        stands_.stuck.is || (!belief.localized && bus_.now() - *stands_.stuck.since > seconds(kStuckAfter));
+    return stands_.stuck.is;
+  }
+  [[nodiscard]] collision_avoidance::VirtualMeasurements::Scan measure_border_when_stuck() {
+    double rest = 0.0;
+    for (const auto& square : squares_) rest += square.mass;
+    if (rest < kRestErrs) squares_.clear();
+    return stands_.stuck.border.measure(poses_, squares_);
+  }
+  [[nodiscard]] static collision_avoidance::VirtualMeasurementParams params_when_stuck(
+      collision_avoidance::VirtualMeasurementParams params) {
+    params.confidence = std::min(params.confidence, 1.0 - kRestErrs);
+    return params;
+  }
+
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
     for (const auto& cell : belief.cells) poses_.push_back({{cell.x, cell.y}, cell.theta, cell.mass});
@@ -121,6 +170,15 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
       squares_.clear();
     }
+    stands_.zone.clear();
+    if (belief.localized && !belief.hypotheses.empty())
+      stands_.zone = zone_at({belief.hypotheses.front().x, belief.hypotheses.front().y});
+    if (!stands_.zone.empty()) {
+      // In its middle every edge is the nearest for some pose: the way out is that of the likeliest.
+      const auto& best = belief.hypotheses.front();
+      poses_.assign(1, {{best.x, best.y}, best.theta, 1.0});
+      squares_.clear();
+    }
     auto of_hazards = hazards_.measure(poses_, squares_);
     if (belief.map_hash == kMapBeingMade && !belief.hypotheses.empty()) {
       // The area begins where the robot did, and lies as far off as the map that is being made: no belief about a place
@@ -129,11 +187,11 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{here.x, here.y}, here.theta, 1.0});
       squares_.clear();
     }
-    auto of_border = border_.measure(poses_, squares_);
+    auto of_border = is_stuck(belief) ? measure_border_when_stuck() : border_.measure(poses_, squares_);
     collision_avoidance::lower_by_doubt(of_hazards.ranges,
                                         {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
-    possible_mass_ = of_hazards.possible_mass;
+    stands_.possible_mass = of_hazards.possible_mass;
 
     last_ = Measured{{from_message(belief.header.stamp), from_message(belief.odom_pose)},
                      {of_hazards.ranges, of_border.ranges}};
@@ -165,6 +223,19 @@ class HazardsModule final : public Module {
   collision_avoidance::LocalTime local_time_{{.honest_way = kHonestWay}};
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
+  struct Stuck {
+    collision_avoidance::VirtualMeasurements border;
+    std::optional<Time> since{};  ///< lost at this place
+    Point2 at{};                  ///< [m], odometry's frame
+    bool is = false;
+  };
+  /// Whether the robot is where it may be, and gets away from there.
+  struct {
+    std::vector<museum::Hazard> zones;
+    std::string zone{};          ///< in which it knows that it stands; empty: none
+    double possible_mass = 1.0;  ///< of the belief
+    Stuck stuck;
+  } stands_;
   /// What the belief does not tell.
   struct {
     double sigmas;
@@ -181,7 +252,6 @@ class HazardsModule final : public Module {
   Odometry told_from_;
   Time received_{};
   Time published_{};
-  double possible_mass_ = 1.0;
 };
 
 }  // namespace

@@ -77,6 +77,24 @@ TEST_F(HazardsModule, AHundredthOfMassOnTheCoarseGridCounts) {
   EXPECT_EQ(ahead(), scans.back().range_max);
 }
 
+TEST_F(HazardsModule, NamesTheZoneInWhichTheRobotKnowsThatItStands) {
+  start();
+  auto belief = belief_at({{10.5, 10}}, 0.0);
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_EQ(module->health().reason.find("'plate'"), std::string::npos) << "it does not know where it is";
+  belief.localized = true;
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_EQ(module->health().state, "degraded");
+  EXPECT_NE(module->health().reason.find("inside the zone 'plate'"), std::string::npos) << module->health().reason;
+  belief = belief_at({{6, 10}}, 0.0);
+  belief.localized = true;
+  beliefs.publish(belief);
+  run(0.01);
+  EXPECT_EQ(module->health().state, "ready");
+}
+
 TEST_F(HazardsModule, WhileTheMapIsMadeTheBorderCountsFromTheLikeliestPlaceAndHazardsFromAll) {
   start();
   auto belief = belief_at({{3, 10}, {2.8, 10}, {8, 10}}, 0.0);

@@ -119,6 +119,7 @@ class PlanModule final : public Module {
   [[nodiscard]] ModuleHealth health() const override {
     if (!pose_.odom_from_base()) return {"degraded", "no odometry"};
     if (!pose_.map_from_base()) return {"degraded", "no belief"};
+    if (std::string why = navigator_.hindrance(); !why.empty()) return {"degraded", std::move(why)};
     return {};
   }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,7 +89,8 @@ Believer with_sonars(auto localizer, const ModuleContext& context, const Localiz
 
 Believer make_believer(const ModuleContext& context, const LocalizeParams& params) {
   const localization::RangeTableCache cache{context.cache};
-  const localization::FloorMap map{context.museum.map, context.museum.hazard_polygons()};
+  // Hazards are floor as well: somebody may have drawn one round the robot. Where it may drive is for others to say.
+  const localization::FloorMap map{context.museum.map};
   if (params.method == "particles")
     return with_sonars(
         std::make_unique<localization::MonteCarloLocalizer>(map, params.markov, params.particles, cache, context.seed),
@@ -153,6 +155,13 @@ class LocalizeModule final : public Module {
       on_scan(i, scan, place);
     });
     if (sonars_) bus_.subscribe<sensor_msgs::Range>(topics::kSonar, [this](const auto& range) { on_sonar(range); });
+    bus_.subscribe<docent_msgs::AvoidState>(topics::kAvoidState,
+                                            [this, heard = std::optional<std::uint32_t>{}](const auto& state) mutable {
+                                              // A count that falls, or is heard first, is no news: one of us has begun
+                                              // anew.
+                                              if (heard && state.carried_off > *heard) watch_.uproot();
+                                              heard = state.carried_off;
+                                            });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "docent/planning/exploration/clearances.h"
+#include "docent/planning/exploration/tell_apart.h"
 
 namespace docent::planning {
 namespace {
@@ -43,9 +44,18 @@ std::vector<double> Lookout::clearances(const Whereabouts& where, Time now) {
   }
   remember(now);
   std::vector<double> result = real.free();
+  widest_real_ = 0.0;
+  for (int i = 0; i < static_cast<int>(result.size()); ++i)
+    widest_real_ = std::max(widest_real_, clearance_of_cone(result, i));
   const auto of_hazards = virtual_ones.free();
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::min(result[i], of_hazards[i]);
   return result;
+}
+
+std::string Lookout::hindrance() const {
+  constexpr double kRoom = 0.7;  // [m], as LookAround asks for at least
+  if (widest_real_ < kRoom) return "looking for the position, hemmed in: people or things all round";
+  return "looking for the position; where it may be, hazards or the area's border are near all round";
 }
 
 void Lookout::remember(Time now) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "docent/base/time.h"
@@ -36,6 +37,8 @@ class Lookout {
   /// @param where  with odometry
   /// @returns [Clearances::kDirections] [m], base frame
   [[nodiscard]] std::vector<double> clearances(const Whereabouts& where, Time now);
+  /// Why nothing was free when that was last asked for, for an operator.
+  [[nodiscard]] std::string hindrance() const;
   /// [m] that the scanners look.
   [[nodiscard]] double reach() const;
 
@@ -50,6 +53,7 @@ class Lookout {
   std::vector<Sweep> newest_;  ///< [scanners]
   Sweep hazards_;
   std::deque<PastLook> past_;  ///< the oldest first
+  double widest_real_ = 0.0;   ///< [m] of the directions that were asked for last, by the scanners alone
 };
 
 }  // namespace docent::planning

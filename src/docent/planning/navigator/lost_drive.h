@@ -26,6 +26,7 @@ class LostDrive {
                                     std::span<const double> clearances, double reach, Time now);
   /// [s], see LookAround::held_up_s.
   [[nodiscard]] double held_up_s(Time now) const { return look_around_.held_up_s(now); }
+  [[nodiscard]] bool is_hemmed_in() const { return look_around_.is_hemmed_in(); }
 
  private:
   [[nodiscard]] std::optional<Point2> telling_place(const Whereabouts& where, const PoseBelief& belief,

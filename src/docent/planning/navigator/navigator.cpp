@@ -1,6 +1,7 @@
 #include "docent/planning/navigator/navigator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace docent::planning {
 namespace {
@@ -17,6 +18,7 @@ Navigator::Navigator(const OccupancyGrid& map, const DrivableGround& ground, std
                      const NavigatorParams& params)
     : goal_tolerance_{params.goal_tolerance},
       robot_radius_{params.route.robot_radius},
+      zones_{ground.hazards},
       route_{map, ground.hazards, ground.area, params.route},
       coast_{map, route_, params.coastal},
       pursuit_{params.pursuit},
@@ -62,12 +64,24 @@ void Navigator::plan_on(const Whereabouts& where) {
   route_.hold_way(here->position());
 }
 
+bool Navigator::is_in_zone(const Whereabouts& where, Time now) const {
+  const auto here = where.is_known(now) ? where.map_from_base() : std::nullopt;
+  return here && std::any_of(zones_.begin(), zones_.end(),
+                             [&](const Polygon& zone) { return contains(zone, here->position()); });
+}
+
 Orders Navigator::step(const Whereabouts& where, Time now) {
   if (relocalizes_ && has_goal()) return look_for_position(where, now);
   if (has_goal()) plan_on(where);
   if (is_stopped_ || (steered_ && now - *steered_ < kLedByHandFor)) pursuit_.hold(now);
   Orders orders;
   orders.goal_id = pursuit_.goal().id;
+  if (has_goal() && is_in_zone(where, now)) {
+    pursuit_.hold(now);
+    orders.report.state = GoalStatus::waiting;
+    orders.report.reason = "it stands inside a hazard's zone, which only an operator may lead it out of";
+    return orders;
+  }
   orders.report = pursuit_.step(where.is_known(now) ? where.map_from_base() : std::nullopt, route_, now);
   orders.report.is_occupied =
       has_goal() && live_.stands_within(pursuit_.goal().map_from_goal.position(), robot_radius_);
@@ -90,6 +104,7 @@ Orders Navigator::look_for_position(const Whereabouts& where, Time now) {
   const auto free = lookout_.clearances(where, now);
   orders.aim = aim_of(lost_drive_.step(where, belief_, free, lookout_.reach(), now));
   orders.report.blocked_s = lost_drive_.held_up_s(now);
+  if (auto why = hindrance(); !why.empty()) orders.report.reason = std::move(why);
   return orders;
 }
 

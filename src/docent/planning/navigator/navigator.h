@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,11 @@ class Navigator {
   /// To be called every `kStepPeriod`.
   [[nodiscard]] Orders step(const Whereabouts& where, Time now);
 
+  /// What keeps a lost robot from going elsewhere to look, for an operator; empty: nothing.
+  [[nodiscard]] std::string hindrance() const {
+    return relocalizes_ && has_goal() && lost_drive_.is_hemmed_in() ? lookout_.hindrance() : std::string{};
+  }
+
   /// The values by which it plans now; without rows and columns once when it has stopped to plan; nullopt: nothing new.
   [[nodiscard]] std::optional<ValuePicture> value_picture();
 
@@ -66,8 +72,12 @@ class Navigator {
   [[nodiscard]] Orders look_for_position(const Whereabouts& where, Time now);
   [[nodiscard]] std::optional<std::vector<Point2>> news_of_path(const Pursuit& pursuit, const Whereabouts& where);
 
+  /// The robot knows that it stands inside a hazard: whether it may leave, and how, is for an operator to say.
+  [[nodiscard]] bool is_in_zone(const Whereabouts& where, Time now) const;
+
   double goal_tolerance_;  ///< [m]
   double robot_radius_;    ///< [m]
+  std::vector<Polygon> zones_;
   RoutePlanner route_;
   CoastGuide coast_;
   GoalPursuit pursuit_;

@@ -233,6 +233,21 @@ TEST_F(NavigatorTest, HazardsAndTheBorderAreClosed) {
   EXPECT_EQ(last.aim.mode, DriveMode::stop);
 }
 
+TEST_F(NavigatorTest, InsideAZoneItStandsWhateverTheGoal) {
+  DrivableGround ground;
+  ground.hazards = {{{2.5, 5.5}, {3.5, 5.5}, {3.5, 6.5}, {2.5, 6.5}}};  // drawn round the robot
+  navigator = {testing::hall_with_two_doors(), ground, {Pose2{}}, for_a_small_robot()};
+  (void)want("g1", {9.0, 6.0});
+  run(10.0);
+  EXPECT_EQ(last.aim.mode, DriveMode::stop);
+  EXPECT_EQ(last.report.state, GoalStatus::waiting) << "the wish is not lost";
+  EXPECT_NE(last.report.reason, "");
+  map_from_base.x = 4.2;  // an operator has led it out
+  odom_from_base.y = -1.2;
+  run(2.0);
+  EXPECT_EQ(last.aim.mode, DriveMode::drive);
+}
+
 TEST_F(NavigatorTest, IsBlockedWhenItDoesNotGetOnUnlessAnOperatorHoldsOrLeadsIt) {
   (void)want("g1", {9.0, 6.0});
   run(6.0);
@@ -307,6 +322,32 @@ TEST_F(NavigatorTest, ALostRobotDrivesAfterAFullTurnAndTellsWhenItIsHeldUp) {
   see_all_round(4.0F);
   run(4.0);
   EXPECT_NEAR(last.report.blocked_s, 4.0, 0.1) << "it has not moved";
+}
+
+TEST_F(NavigatorTest, ALostRobotThatIsHemmedInSaysWhatHindersIt) {
+  localized = false;
+  (void)want_position();
+  const auto turn_round = [&](float real, float virtual_range) {
+    for (int i = 0; i < 25; ++i) {
+      odom_from_base.theta = odom_from_base.theta + Angle::degrees(20);
+      const Sweep sweep{now, -std::numbers::pi, std::numbers::pi / 180.0, 10.0, std::vector<float>(360, real)};
+      Sweep hazards = sweep;
+      hazards.ranges.assign(360, virtual_range);
+      navigator.lookout().see(0, sweep);
+      navigator.lookout().see_hazards(hazards);
+      step();
+      EXPECT_EQ(last.aim.mode, DriveMode::turn);
+    }
+  };
+  turn_round(0.5F, 6.0F);
+  EXPECT_NE(navigator.hindrance().find("people or things"), std::string::npos) << navigator.hindrance();
+  EXPECT_EQ(last.report.reason, navigator.hindrance());
+  EXPECT_GT(last.report.blocked_s, 0.0) << "so that people are asked";
+  turn_round(4.0F, 0.5F);
+  EXPECT_NE(navigator.hindrance().find("hazards"), std::string::npos) << navigator.hindrance();
+  localized = true;
+  (void)want("g2", {9.0, 6.0});
+  EXPECT_EQ(navigator.hindrance(), "");
 }
 
 TEST_F(NavigatorTest, ALostRobotDrivesToWhereTheBeliefSaysThatItsHypothesesDiffer) {

@@ -25,7 +25,10 @@ Aim aim_of(const LookAroundStep& step) {
   aim.mode = step.drive ? DriveMode::drive : DriveMode::turn;
   aim.heading = step.heading;
   aim.is_final = step.drive;
-  if (step.drive) aim.via = {step.via};
+  if (step.drive) {
+    aim.via = {step.via};
+    aim.position_tolerance = step.tolerance;
+  }
   return aim;
 }
 

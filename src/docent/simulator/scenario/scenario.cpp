@@ -200,6 +200,7 @@ class EventReader {
            {{"to", [&](const YAML::Node& at) { to = point(at); }},
             {"heading", degrees_into(heading)},
             {"from_hazards", into(event.from_hazards, 0.0, 20.0)},
+            {"near_hazards", into(event.near_hazards, 0.0, 20.0)},
             {"shift", into(event.shift, 0.0, 1000.0)},
             {"turn", into(event.turn, -360.0, 360.0)}},
            {});

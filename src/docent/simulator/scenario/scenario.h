@@ -20,6 +20,7 @@ namespace docent::simulator {
 struct Kidnap {
   std::optional<Pose2> to;    ///< world_from_base
   double from_hazards = 0.0;  ///< [m] a random place keeps from hazards
+  double near_hazards = 0.0;  ///< [m] > 0: a random place whose outline is at most so far from a hazard
   double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
   double turn = 0.0;          ///< [deg]
 };

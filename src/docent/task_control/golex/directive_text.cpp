@@ -26,6 +26,8 @@ std::string text_of(const Directive& directive, const ExecutiveTask& task, Mood 
 }
 
 std::string words_for_way(const ExecutiveTask& task, Mood mood, int count) {
+  if (task.order.kind == TaskKind::relocalize)
+    return interaction::sentence(interaction::Sentence::step_back, task.order.language, mood, count - 1);
   const bool leads_tour = task.order.kind != TaskKind::charge && !task.order.tour_id.empty();
   const auto which = leads_tour && count % 2 == 0 ? interaction::Sentence::stay_behind  //
                                                   : interaction::Sentence::let_me_through;

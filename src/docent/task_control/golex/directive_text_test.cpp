@@ -54,5 +54,13 @@ TEST(DirectiveText, WhoLeadsATourAsksEveryOtherTimeToStayBehindIt) {
   EXPECT_NE(words_for_way(task, Mood::neutral, 4), behind);
 }
 
+TEST(DirectiveText, WhoLooksForItsPlaceSaysWhyPeopleShallStepBack) {
+  ExecutiveTask task = visit("l");
+  task.order.kind = TaskKind::relocalize;
+  const auto asked = words_for_way(task, Mood::neutral, 1);
+  EXPECT_NE(asked.find("step back"), std::string::npos);
+  EXPECT_NE(words_for_way(task, Mood::neutral, 2), asked);
+}
+
 }  // namespace
 }  // namespace docent::task_control

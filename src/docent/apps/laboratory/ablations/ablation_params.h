@@ -9,6 +9,7 @@ namespace docent::apps::ablations {
 struct AblationParams {
   bool blind_to_people = false;    ///< avoid: sees virtual measurements and touch only
   bool without_watches = false;    ///< avoid: takes every sensor and belief for well
+  bool misses_carrying = false;    ///< avoid: drives on by what it believed before somebody carried it elsewhere
   bool doubts_odometry = false;    ///< avoid: takes for a jump what the base does every day
   bool dead_reckoning = false;     ///< localize: odometry alone after the first "here"
   bool ignores_reach = false;      ///< localize: holds far readings against what it expects within its reach
@@ -38,6 +39,7 @@ struct AblationParams {
   void visit(V& v) {
     v("blind_to_people", blind_to_people);
     v("without_watches", without_watches);
+    v("misses_carrying", misses_carrying);
     v("doubts_odometry", doubts_odometry);
     v("dead_reckoning", dead_reckoning);
     v("ignores_reach", ignores_reach);

@@ -46,6 +46,7 @@ void amend_driving(robot::Amendments& amendments, const AblationParams& params) 
     avoider.blind_to_people = params.blind_to_people;
     avoider.watches = !params.without_watches;
     avoider.remembers_touch = !params.forgets_touch;
+    avoider.stops_when_carried_off = !params.misses_carrying;
     if (params.doubts_odometry) avoider.odometry = {.margin = 0.0, .linear_noise = 0.02, .angular_noise = 0.02};
   });
   amendments.add<mapping::LiveMapParams>([params](auto& map) {

@@ -54,8 +54,8 @@ TEST(Ablations, WithoutASwitchEveryPartIsAsARobotHasIt) {
 TEST(Ablations, ASwitchChangesItsParameter) {
   AblationParams params;
   params.blind_to_people = params.without_watches = params.best_pose_only = params.dead_reckoning = true;
-  params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people = params.without_ladder =
-      params.without_moods = true;
+  params.misses_carrying = params.doubts_odometry = params.trusts_dead_sonars = params.keeps_all_people =
+      params.without_ladder = params.without_moods = true;
   params.never_gives_up = params.serves_by_arrival = params.without_stand_in = true;
   params.forgets_touch = params.calls_nobody = true;
   EXPECT_LT(amended<mapping::LiveMapParams>(params).touch.forget, 1.0);
@@ -64,7 +64,8 @@ TEST(Ablations, ASwitchChangesItsParameter) {
   params.never_explores = params.ignores_reward = params.stores_at_once = true;
   EXPECT_TRUE(amended<telepresence::StoreQueueParams>(params).at_once);
   const auto avoider = amended<collision_avoidance::AvoiderParams>(params);
-  EXPECT_TRUE(!avoider.watches && avoider.blind_to_people && !avoider.remembers_touch);
+  EXPECT_TRUE(!avoider.watches && avoider.blind_to_people && !avoider.remembers_touch &&
+              !avoider.stops_when_carried_off);
   EXPECT_EQ(avoider.odometry.margin, 0.0);
   EXPECT_TRUE(amended<collision_avoidance::VirtualMeasurementParams>(params).best_pose_only);
   EXPECT_TRUE(amended<localization::LocalizerParams>(params).reckons_dead);
