@@ -197,7 +197,7 @@ class Executive {
   ReactionLadder ladder_;
   ApproachWatch approach_{{}, {}};
   std::optional<Docking> docking_;  ///< while it docks
-  SomebodyThere somebody_;  ///< at the charger
+  SomebodyThere somebody_;          ///< at the charger
   Contact contact_ = Contact::unheard;
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
