@@ -66,8 +66,8 @@ struct OccupancyGrid {
 /// A map as a file has it, and what a person should know of how it was read: keys that nobody knows, a turn, a file
 /// that is longer than it says.
 struct LoadedMap {
-  OccupancyGrid map;
-  std::vector<std::string> notes;
+  OccupancyGrid map;               ///< along the axes
+  std::vector<std::string> notes;  ///< for a person
 };
 
 /// Reads a map_server YAML and its PGM (P2, P5) or PNG image. Faults name file and line. An origin with a yaw turns the

@@ -43,8 +43,8 @@ TEST(Vocabulary, EachValueHasItsWord) {
   expect_each_has_its_word(SpeechAct::complain);
   expect_each_has_its_word(Answer::no);
   expect_each_has_its_word(ContactKind::hazards);
-  expect_each_has_its_word(ReasonWord::another_stop);
-  expect_each_has_its_word(EventKind::choice);
+  expect_each_has_its_word(ReasonWord::charger_no_current);
+  expect_each_has_its_word(EventKind::staff_called);
 }
 
 TEST(Vocabulary, ValuesHaveTheirOwnWords) {

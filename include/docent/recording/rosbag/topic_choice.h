@@ -18,14 +18,16 @@ struct WantedTopics {
 
 /// What a recording holds, as far as a choice needs it.
 struct RecordedTopics {
+  /// Of one topic.
   struct Scans {
-    std::size_t count = 0;
+    std::size_t count = 0;   ///< messages
     std::string frame;       ///< of its messages
     bool has_place = false;  ///< the frame's place on the robot is known
   };
+  /// Of one topic.
   struct Odometry {
-    std::size_t count = 0;
-    std::string parent;  ///< "odom"
+    std::size_t count = 0;  ///< messages
+    std::string parent;     ///< "odom"
   };
   std::map<std::string, Scans> scans = {};        ///< by topic
   std::map<std::string, Odometry> odometry = {};  ///< by topic
@@ -39,7 +41,7 @@ struct ChosenTopics {
   std::vector<std::string> scans;  ///< topics
   std::string odometry;            ///< topic; empty: none
   std::string transforms;          ///< name space of the transforms that tell odometry, where no topic does
-  bool is_by_transforms = false;
+  bool is_by_transforms = false;   ///< no topic tells odometry, but a transform does
   std::vector<std::string> notes;  ///< what was left, and why
 };
 

@@ -38,7 +38,9 @@ TEST(SomebodyThere, WhoHasNotMovedForLongMayBeAStool) {
   there.see(std::vector<PersonSeen>{{1, {0.3, 0}, 0.8}}, at(1.0));
   for (double s = 1.1; s < 30.0; s += 0.1) {
     there.see(std::vector<PersonSeen>{{1, {0.3, 0}, 0.0}}, at(s));
-    if (std::abs(s - 21.0) > 0.05) EXPECT_EQ(there.is_near({0, 0}, at(s)), s < 21.0) << s;
+    if (std::abs(s - 21.0) > 0.05) {
+      EXPECT_EQ(there.is_near({0, 0}, at(s)), s < 21.0) << s;
+    }
   }
 }
 
