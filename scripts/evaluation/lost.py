@@ -71,9 +71,19 @@ def stood_after(drive, begin, end):
 
 
 def is_in_time(kidnap):
-    """Whether it could have stood before: set down with its wheels at speed, nobody can, whatever is noticed. It brakes from the first scan on."""
-    after, _ = kidnap["reached"]
-    return after > SCAN_S + LATENCY_S + kidnap["speed"] / BRAKES
+    """Whether it could have stood before: a base that brakes from the first scan on rolls so far, and no program changes that. Judged by the
+    way, so that a robot that drives on is not excused."""
+    return kidnap["rolled"] > kidnap["speed"] * (SCAN_S + LATENCY_S) + kidnap["speed"] ** 2 / (2.0 * BRAKES) + 0.02
+
+
+def way_at(drive, time):
+    """[m] driven until then, between two rows of the log in proportion."""
+    for before, after in zip(drive, drive[1:]):
+        a, b = float(before["time"]), float(after["time"])
+        if a <= time <= b:
+            share = (time - a) / (b - a) if b > a else 0.0
+            return float(before["distance"]) + share * (float(after["distance"]) - float(before["distance"]))
+    return float(drive[-1]["distance"]) if drive else 0.0
 
 
 def kidnaps_of(logs):
@@ -83,8 +93,10 @@ def kidnaps_of(logs):
     for begin, end in zip(times, times[1:] + [math.inf]):
         before = [abs(float(row["speed"])) for row in logs["drive.csv"] if begin - 0.3 <= float(row["time"]) <= begin]
         found = found_at(logs["claims.csv"], begin + 0.5)
+        hit = reached(logs["events.csv"], begin, end)
+        rolled = way_at(logs["drive.csv"], begin + hit[0]) - way_at(logs["drive.csv"], begin) if hit else 0.0
         kidnaps.append({"speed": before[-1] if before else 0.0, "stood": stood_after(logs["drive.csv"], begin, end),
-                        "reached": reached(logs["events.csv"], begin, end),
+                        "reached": hit, "rolled": rolled,
                         "found": found - begin if found is not None and found < end else None, "at": begin})
     return kidnaps
 
