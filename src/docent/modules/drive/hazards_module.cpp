@@ -28,13 +28,11 @@ class HazardsModule final : public Module {
                  collision_avoidance::VirtualMeasurements::Ends::hazards},
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
-        stands_{context.museum.hazards,
+        stands_{context.museum.hazards},
+        stuck_{{context.museum.area,
                 {},
-                1.0,
-                {{context.museum.area,
-                  {},
-                  params_when_stuck(params),
-                  collision_avoidance::VirtualMeasurements::Ends::border}}},
+                params_when_stuck(params),
+                collision_avoidance::VirtualMeasurements::Ends::border}},
         doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -132,20 +130,19 @@ class HazardsModule final : public Module {
   /// about hazards never more than a hundredth. Until it knows its place.
   [[nodiscard]] bool is_stuck(const docent_msgs::Belief& belief) {
     const Pose2 here = from_message(belief.odom_pose);
-    if (belief.localized) stands_.stuck.since.reset(), stands_.stuck.is = false;
-    if (!stands_.stuck.since || distance(here.position(), stands_.stuck.at) > kStuckWithin) {
-      stands_.stuck.since = bus_.now();
-      stands_.stuck.at = here.position();
+    if (belief.localized) stuck_.since.reset(), stuck_.is = false;
+    if (!stuck_.since || distance(here.position(), stuck_.at) > kStuckWithin) {
+      stuck_.since = bus_.now();
+      stuck_.at = here.position();
     }
-    stands_.stuck.is =
-        stands_.stuck.is || (!belief.localized && bus_.now() - *stands_.stuck.since > seconds(kStuckAfter));
-    return stands_.stuck.is;
+    stuck_.is = stuck_.is || (!belief.localized && bus_.now() - *stuck_.since > seconds(kStuckAfter));
+    return stuck_.is;
   }
   [[nodiscard]] collision_avoidance::VirtualMeasurements::Scan measure_border_when_stuck() {
     double rest = 0.0;
     for (const auto& square : squares_) rest += square.mass;
     if (rest < kRestErrs) squares_.clear();
-    return stands_.stuck.border.measure(poses_, squares_);
+    return stuck_.border.measure(poses_, squares_);
   }
   [[nodiscard]] static collision_avoidance::VirtualMeasurementParams params_when_stuck(
       collision_avoidance::VirtualMeasurementParams params) {
@@ -223,19 +220,18 @@ class HazardsModule final : public Module {
   collision_avoidance::LocalTime local_time_{{.honest_way = kHonestWay}};
   collision_avoidance::VirtualMeasurements hazards_;
   collision_avoidance::VirtualMeasurements border_;
-  struct Stuck {
-    collision_avoidance::VirtualMeasurements border;
-    std::optional<Time> since{};  ///< lost at this place
-    Point2 at{};                  ///< [m], odometry's frame
-    bool is = false;
-  };
-  /// Whether the robot is where it may be, and gets away from there.
+  /// Whether the robot is where it may be.
   struct {
     std::vector<museum::Hazard> zones;
     std::string zone{};          ///< in which it knows that it stands; empty: none
     double possible_mass = 1.0;  ///< of the belief
-    Stuck stuck;
   } stands_;
+  struct {
+    collision_avoidance::VirtualMeasurements border;
+    std::optional<Time> since{};  ///< lost at this place
+    Point2 at{};                  ///< [m], odometry's frame
+    bool is = false;
+  } stuck_;
   /// What the belief does not tell.
   struct {
     double sigmas;
