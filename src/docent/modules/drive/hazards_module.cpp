@@ -29,10 +29,6 @@ class HazardsModule final : public Module {
         border_{context.museum.area, context.museum.hazard_polygons(), params,
                 collision_avoidance::VirtualMeasurements::Ends::border},
         stands_{context.museum.hazards},
-        stuck_{{context.museum.area,
-                {},
-                params_when_stuck(params),
-                collision_avoidance::VirtualMeasurements::Ends::border}},
         doubt_{params.doubt_sigmas, context.config.body().radius + kBeside},
         best_pose_only_{params.best_pose_only},
         scan_{bus_.publisher(topics::kVirtualScan)} {
@@ -74,10 +70,6 @@ class HazardsModule final : public Module {
   /// scans, too: what they take for ours, as they do what comes quicker than that, must be so here.
   static constexpr double kHonestWay = 0.3;
   static constexpr double kTurned = 0.02;  // [rad]
-
-  static constexpr double kStuckAfter = 12.0;   // [s] two turns on the spot
-  static constexpr double kStuckWithin = 0.25;  // [m] of one place
-  static constexpr double kRestErrs = 0.1;      // of the mass
 
   struct Odometry {
     Time stamp{};
@@ -125,31 +117,6 @@ class HazardsModule final : public Module {
     return {};
   }
 
-  /// Lost, and in one place for long: in narrow corridors a hundredth of the belief has the border all round, and a
-  /// robot that stays there learns nothing more. Then a tenth of it may err about the border, which walls stand near;
-  /// about hazards never more than a hundredth. Until it knows its place.
-  [[nodiscard]] bool is_stuck(const docent_msgs::Belief& belief) {
-    const Pose2 here = from_message(belief.odom_pose);
-    if (belief.localized) stuck_.since.reset(), stuck_.is = false;
-    if (!stuck_.since || distance(here.position(), stuck_.at) > kStuckWithin) {
-      stuck_.since = bus_.now();
-      stuck_.at = here.position();
-    }
-    stuck_.is = stuck_.is || (!belief.localized && bus_.now() - *stuck_.since > seconds(kStuckAfter));
-    return stuck_.is;
-  }
-  [[nodiscard]] collision_avoidance::VirtualMeasurements::Scan measure_border_when_stuck() {
-    double rest = 0.0;
-    for (const auto& square : squares_) rest += square.mass;
-    if (rest < kRestErrs) squares_.clear();
-    return stuck_.border.measure(poses_, squares_);
-  }
-  [[nodiscard]] static collision_avoidance::VirtualMeasurementParams params_when_stuck(
-      collision_avoidance::VirtualMeasurementParams params) {
-    params.confidence = std::min(params.confidence, 1.0 - kRestErrs);
-    return params;
-  }
-
   void measure(const docent_msgs::Belief& belief) {
     poses_.clear();
     for (const auto& cell : belief.cells) poses_.push_back({{cell.x, cell.y}, cell.theta, cell.mass});
@@ -184,7 +151,7 @@ class HazardsModule final : public Module {
       poses_.assign(1, {{here.x, here.y}, here.theta, 1.0});
       squares_.clear();
     }
-    auto of_border = is_stuck(belief) ? measure_border_when_stuck() : border_.measure(poses_, squares_);
+    auto of_border = border_.measure(poses_, squares_);
     collision_avoidance::lower_by_doubt(of_hazards.ranges,
                                         {doubt_.mounts.heading, doubt_.mounts.position + doubt_.marks, doubt_.keep});
     collision_avoidance::lower_by_doubt(of_border.ranges, {doubt_.mounts.heading, 0.0});
@@ -226,12 +193,6 @@ class HazardsModule final : public Module {
     std::string zone{};          ///< in which it knows that it stands; empty: none
     double possible_mass = 1.0;  ///< of the belief
   } stands_;
-  struct {
-    collision_avoidance::VirtualMeasurements border;
-    std::optional<Time> since{};  ///< lost at this place
-    Point2 at{};                  ///< [m], odometry's frame
-    bool is = false;
-  } stuck_;
   /// What the belief does not tell.
   struct {
     double sigmas;
