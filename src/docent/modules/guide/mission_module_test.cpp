@@ -336,7 +336,7 @@ TEST(Tour, ChargesServesAfterwardsAndSaysUntilWhen) {
   EXPECT_EQ(rehearsal.client.state_of("t1"), "queued");
   EXPECT_EQ(rehearsal.mission.phase, "charging");
   EXPECT_EQ(rehearsal.mission.texts.at(0),
-            "I am charging my battery, for about 5 more minutes. I keep your wishes in mind.");
+            "I am charging my battery, for about 10 more minutes. I keep your wishes in mind.");
   rehearsal.client.wish_for("r1", "exhibit", "echo");
   rehearsal.run_for(5);
   EXPECT_EQ(rehearsal.client.state_of("r1"), "queued");

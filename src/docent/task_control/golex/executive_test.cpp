@@ -289,7 +289,7 @@ TEST_F(ExecutiveTest, WhoIsLostAmidPeopleAsksForTheWayAndDoesNotGiveUp) {
   }
   EXPECT_GE(std::count(rungs.begin(), rungs.end(), Rung::horn), 10);
   ASSERT_FALSE(said.empty());
-  EXPECT_EQ(said[0].text, "Please let me through.");
+  EXPECT_TRUE(said[0].text.starts_with("I do not know where I am")) << said[0].text;
   EXPECT_NE(state.state, TaskStatus::failed) << "there is nothing else that it could do";
   goal(GoalStatus::arrived);
   EXPECT_EQ(state.state, TaskStatus::done);
