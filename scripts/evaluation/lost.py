@@ -9,7 +9,7 @@ from evaluation.claims import is_lost, read_claims
 from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["hazards", "packed", "corridors", "zones", "faults"]
+PARTS = ["hazards", "rolling", "packed", "corridors", "zones", "faults"]
 MUSEUMS = ["bonn", "smithsonian"]
 CARRIED_UNSEEN = ["--set", "evaluation.misses_carrying=true"]
 LOGS = {"--claims": "claims.csv", "--event-log": "events.csv", "--health-log": "health.csv", "--drive-log": "drive.csv"}
@@ -101,7 +101,11 @@ def kidnaps_of(logs):
     return kidnaps
 
 
-def hazards(simulations, options, verdict):
+def rolling(simulations, options, verdict):
+    hazards(simulations, options, verdict, keeps_speed=1.0)
+
+
+def hazards(simulations, options, verdict, keeps_speed=0.0):
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else 3)))
     runs_a_seed = 1 if options.slice else 3
     robots = [("robot", [])] + ([] if options.no_crippled else [("crippled: misses that it is carried off", CARRIED_UNSEEN)])
@@ -110,13 +114,13 @@ def hazards(simulations, options, verdict):
         for museum in MUSEUMS[:1] if options.slice else MUSEUMS:
             calls = [(simulations, simulations.museums / museum, 1000 * seed + i, lost_stages.KIDNAP_MINUTES,
                       ["--crowd", "busy" if i == 2 else "quiet", "--requests-per-hour", "60", *settings],
-                      lost_stages.kidnaps_beside_hazards(1000 * seed + i)) for seed in seeds for i in range(runs_a_seed)]
+                      lost_stages.kidnaps_beside_hazards(1000 * seed + i, keeps_speed)) for seed in seeds for i in range(runs_a_seed)]
             kidnaps = [kidnap for logs, _ in simulations.each(run, calls) for kidnap in kidnaps_of(logs)]
             moving = [kidnap for kidnap in kidnaps if kidnap["speed"] > 0.1]
             stood = sorted(kidnap["stood"] if kidnap["stood"] is not None else math.inf for kidnap in moving)
             found = sorted(kidnap["found"] for kidnap in kidnaps if kidnap["found"] is not None)
-            hit = [kidnap["reached"] for kidnap in kidnaps if kidnap["reached"] and is_in_time(kidnap)]
-            rolled = sum(bool(kidnap["reached"]) and not is_in_time(kidnap) for kidnap in kidnaps)
+            rolled = sum(keeps_speed > 0.0 and bool(kidnap["reached"]) and not is_in_time(kidnap) for kidnap in kidnaps)
+            hit = [kidnap["reached"] for kidnap in kidnaps if kidnap["reached"] and (keeps_speed == 0.0 or is_in_time(kidnap))]
             rows.append([name, museum, len(kidnaps), len(moving), f"{stood[len(stood) // 2]:.2f}" if stood else "-",
                          f"{stood[int(0.95 * len(stood))]:.2f}" if stood else "-", rolled, len(hit),
                          " ".join(f"{what}@{after:.1f}" for after, what in hit) or "-", len(found),
@@ -124,7 +128,8 @@ def hazards(simulations, options, verdict):
             if settings:
                 verdict.want(f"{name}, {museum}: fails as it must", rate(len(hit), len(kidnaps)), len(hit) > 0)
             else:
-                verdict.note(f"{museum}: set down with its wheels at speed, nearer than it can brake", f"{rolled} of {len(kidnaps)}")
+                if keeps_speed > 0.0:
+                    verdict.note(f"{museum}: set down at speed, nearer than it can brake", f"{rolled} of {len(kidnaps)}")
                 verdict.want(f"{museum}: carried off to beside hazards, at most 1 % reach one", rate(len(hit), len(kidnaps)),
                              len(kidnaps) >= 5 * len(calls) and len(hit) <= 0.01 * len(kidnaps))
     print_table(["robot", "museum", "kidnaps", "while it drove", "stood after s", "95 % s", "rolled on to one", "reached one", "which, after s", "found itself",
@@ -226,7 +231,7 @@ def faults(simulations, options, verdict):
 
 def protocol(simulations, options):
     verdict = Verdict()
-    parts = {"hazards": hazards, "packed": packed, "corridors": corridors, "zones": zones, "faults": faults}
+    parts = {"hazards": hazards, "rolling": rolling, "packed": packed, "corridors": corridors, "zones": zones, "faults": faults}
     for name in [options.part] if options.part else PARTS:
         print(f"\n## lost: {name}\n")
         parts[name](simulations, options, verdict)

@@ -11,10 +11,11 @@ KIDNAP_MINUTES = (FIRST_S + KIDNAPS_A_RUN * EVERY_S + 30.0) / 60.0
 NEAR_M = 0.5  # from the robot's outline to a hazard
 
 
-def kidnaps_beside_hazards(seed):
-    """Carried off while it drives, whatever its speed: the worst moment."""
+def kidnaps_beside_hazards(seed, keeps_speed=0.0):
+    """Carried off while it drives, the worst moment: set down standing, with wheels that go on as they were told; or with a share of its speed,
+    as nobody's hands could."""
     draw = random.Random(seed)
-    events = [f"  - {{at: {FIRST_S + EVERY_S * i:.1f}, during: driving, after: {draw.uniform(0.5, 4.0):.1f}, kidnap: {{near_hazards: {NEAR_M}}}}}"
+    events = [f"  - {{at: {FIRST_S + EVERY_S * i:.1f}, during: driving, after: {draw.uniform(0.5, 4.0):.1f}, kidnap: {{near_hazards: {NEAR_M}, keeps_speed: {keeps_speed:g}}}}}"
               for i in range(KIDNAPS_A_RUN)]
     return "events:\n" + "\n".join(events) + "\n"
 

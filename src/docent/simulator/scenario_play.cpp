@@ -75,7 +75,7 @@ void SimulatedMuseum::Impl::play(const Kidnap& event) {
     offer("kidnap_failed", "no free place");
     return;
   }
-  body_.carry_to(*to);
+  body_.set_down(*to, event.keeps_speed);
   // The people who carry it ask for room.
   for (std::size_t i = 0; i < crowd_.people().size(); ++i) {
     (void)crowd_.give_way(i, to->position(), body_.params().radius + crowd_.people()[i].radius + 0.4);

@@ -33,7 +33,8 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       sectors_{params.sectors},
       of_map_{params.sectors},
       near_{params.near},
-      rings_{params.rings} {}
+      rings_{params.rings},
+      straight_{params.straight} {}
 
 void ScannerWatch::convict(Lie lie, Time when) {
   if (!lie_) {
@@ -68,6 +69,7 @@ void ScannerWatch::follow_mount(const SensorSweep& sweep) {
   before_.reset();
   forget_places();
   old_.forget();
+  straight_.forget();
   word_ = {.broken = sweep.stamp, .remounted = sweep.stamp};
 }
 
@@ -335,26 +337,33 @@ bool ScannerWatch::is_glass(const RangeLaw& law) const {
 }
 
 void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Finding& found) {
-  const bool does_map_fit = word_.fits_map != Time{} && word_.fits_map >= map_said_ &&
-                            view.stamp - word_.fits_map < seconds(params_.silence_map);
   if (view.stamp - word_.newest > seconds(params_.onset) || word_.broken > fits_rings_) fits_rings_ = {};
   // What the sensors said before a break counts as long as they remember it.
   const bool is_settled = view.stamp - word_.broken > seconds(params_.rings.memory);
   if (found.in_order && is_settled && word_.newest == view.stamp && !lie_) fits_rings_ = view.stamp;
   // Glass all round: the map has what the laser sees through it, or it has seen so all the while.
-  const bool is_lie = found.too_long && !does_map_fit && !is_glass(*found.too_long);
+  const bool is_lie = found.too_long && !does_map_fit(view.stamp) && !is_glass(*found.too_long);
   rings_row_ = is_lie ? rings_row_ + 1 : 0;
-  if (rings_row_ >= params_.rings_sure) {
+  if (rings_row_ >= params_.rings_sure)
     convict({.what = "the distances of the " + name_ + " are " + to_words(*found.too_long) + " for sonar and infrared",
              .by = Lie::By::rings,
              .law = *found.too_long},
             view.stamp);
-  }
   if (lie_ && !lie_->is_late && rings_row_ == 0) {
     const bool is_in_order =
         lie_->by == Lie::By::rings ? found.in_order : rings_.contradicts(lie_->law, lie_->first_sign);
     if (is_in_order) acquit();
   }
+}
+
+void ScannerWatch::judge_by_walls(const SweepView& view) {
+  const auto found = form_.is_silent || breaks_ ? StraightWallsCheck::Finding::nothing : straight_.add(view);
+  if (found == StraightWallsCheck::Finding::in_order && lie_ && lie_->by == Lie::By::walls) acquit();
+  if (found != StraightWallsCheck::Finding::offset) return;
+  const RangeLaw law{.offset = straight_.offset()};
+  if (does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
+  const std::string what = "the distances of the " + name_ + " are " + to_words(law) + " for walls to be straight";
+  convict({.what = what, .by = Lie::By::walls, .law = law}, view.stamp);
 }
 
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
@@ -415,6 +424,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     judge_motion(view);
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);
+    judge_by_walls(view);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);
@@ -426,9 +436,7 @@ std::optional<Complaint> ScannerWatch::complaint() const {
   if (form_fault_ == FormFault::silent && !is_silence_explained_)
     return Complaint{0.0, "no beam of the " + name_ + " ends anywhere"};
   if (form_fault_ == FormFault::covered) return Complaint{0.0, "something covers the " + name_};
-  if (lie_) {
-    return Complaint{is_tried(newest_) ? params_.trial_speed : 0.0, lie_->what};
-  }
+  if (lie_) return Complaint{is_tried(newest_) ? params_.trial_speed : 0.0, lie_->what};
   if (sectors_.is_any_sure())
     return Complaint{params_.crippled_speed, "the " + name_ + " sees nothing in a part of its field"};
   if (near_.is_any_sure())

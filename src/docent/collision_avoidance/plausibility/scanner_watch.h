@@ -8,6 +8,7 @@
 
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
+#include "docent/collision_avoidance/expected_sweeps/straight_walls.h"
 #include "docent/collision_avoidance/expected_sweeps/succession.h"
 #include "docent/collision_avoidance/plausibility/blind_sectors.h"
 #include "docent/collision_avoidance/plausibility/map_check.h"
@@ -31,6 +32,7 @@ struct ScannerWatchParams {
   MotionCheckParams motion{};
   MapCheckParams map{};
   RingCheckParams rings{};
+  StraightWallsParams straight{};
   SuccessionParams succession{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
@@ -115,8 +117,8 @@ class ScannerWatch {
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
     /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map;
-    /// by sonars and infrared sensors.
-    enum class By { sweeps, motion, map, rings };
+    /// by sonars and infrared sensors; by straight walls that are not straight.
+    enum class By { sweeps, motion, map, rings, walls };
     std::string what;  ///< for a person
     By by = By::sweeps;
     RangeLaw law{};  ///< of sweeps and map
@@ -155,8 +157,14 @@ class ScannerWatch {
   void judge_motion(const SweepView& view);
   void judge_by_map(const SweepView& view, std::span<const Word> others);
   void judge_by_rings(const SweepView& view, const RingCheck::Finding& found);
+  /// The map said last that the ranges are right.
+  [[nodiscard]] bool does_map_fit(Time now) const {
+    return word_.fits_map != Time{} && word_.fits_map >= map_said_ &&
+           now - word_.fits_map < seconds(params_.silence_map);
+  }
   /// The ring has borne the scanner out, and every sweep since was as the one before let expect.
   [[nodiscard]] bool is_glass(const RangeLaw& law) const;
+  void judge_by_walls(const SweepView& view);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
@@ -186,6 +194,7 @@ class ScannerWatch {
   int of_map_row_ = 0;
   NearThings near_;
   RingCheck rings_;
+  StraightWallsCheck straight_;
   int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
   Time fits_rings_{};  ///< when they last bore it out; never, if what came since does not follow from that sweep
   bool has_ring_ = false;

@@ -43,6 +43,13 @@ class Body {
   void correct(Point2 position) { pose_ = {position.x, position.y, pose_.theta}; }
   /// Someone carries the robot: the wheels do not turn.
   void carry_to(const Pose2& pose) { pose_ = pose; }
+  /// Likewise, and puts it on the floor: whoever holds it takes its speed away, but `keeps` of it, 0..1. The wheels go
+  /// on to do what they were told last.
+  void set_down(const Pose2& pose, double keeps) {
+    pose_ = pose;
+    linear_ *= keeps;
+    angular_ *= keeps;
+  }
 
   [[nodiscard]] const Pose2& pose() const { return pose_; }      ///< world_from_base
   [[nodiscard]] const Pose2& odometry() const { return odom_; }  ///< odom_from_base

@@ -77,6 +77,16 @@ TEST(Body, CarryingItDoesNotTurnItsWheels) {
   EXPECT_EQ(body.pose().x, 5.0);
 }
 
+TEST(Body, SetDownItStandsAndGoesOnAsItWasTold) {
+  Body body{BodyParams{}, Pose2{}, Rng{1}};
+  drive(body, Time{}, 5.0, [&](Time t) { body.command(t, 0.5, 0.0); });
+  EXPECT_NEAR(body.linear(), 0.5, 0.01);
+  body.set_down({5.0, 5.0, {}}, 0.0);
+  EXPECT_EQ(body.linear(), 0.0);
+  drive(body, time_from_seconds(5.0), 1.0, [&](Time t) { body.command(t, 0.5, 0.0); });
+  EXPECT_NEAR(body.pose().x, 5.25, 0.1);  // 0.5 m/s^2
+}
+
 TEST(Battery, LastsAboutTwoHoursOfDriving) {
   Battery battery;
   double hours = 0.0;

@@ -194,15 +194,16 @@ class EventReader {
 
   [[nodiscard]] Kidnap kidnap(const YAML::Node& node) const {
     Kidnap event;
-    std::optional<Point2> to;
     double heading = 0.0;
+    std::optional<Point2> to;
     fields(node,
            {{"to", [&](const YAML::Node& at) { to = point(at); }},
             {"heading", degrees_into(heading)},
             {"from_hazards", into(event.from_hazards, 0.0, 20.0)},
             {"near_hazards", into(event.near_hazards, 0.0, 20.0)},
             {"shift", into(event.shift, 0.0, 1000.0)},
-            {"turn", into(event.turn, -360.0, 360.0)}},
+            {"turn", into(event.turn, -360.0, 360.0)},
+            {"keeps_speed", into(event.keeps_speed, 0.0, 1.0)}},
            {});
     if (to && event.shift > 0.0) fault(kind_at_, "'to' or 'shift', not both");
     if (to) event.to = Pose2{to->x, to->y, Angle::radians(heading)};

@@ -23,6 +23,7 @@ struct Kidnap {
   double near_hazards = 0.0;  ///< [m] > 0: a random place whose outline is at most so far from a hazard
   double shift = 0.0;         ///< [m] > 0: a random place at most so far from here, the robot turned by `turn`
   double turn = 0.0;          ///< [deg]
+  double keeps_speed = 0.0;   ///< share of its speed that it keeps, as if nobody's hands had held it: 1 is the hardest
 };
 enum class Sensor { laser_front, laser_rear, laser_left, laser_right, sonar, odom, tactile, infrared };
 inline constexpr std::size_t kSensors = 8;
