@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 
@@ -142,60 +143,83 @@ double bearing_of(const Piece& piece) { return std::atan2(piece.normal.y(), piec
 
 }  // namespace
 
-std::optional<StraightWalls> straight_walls_of(const SweepView& view, const StraightWallsParams& params) {
+std::vector<WallPiece> straight_walls_of(const SweepView& view, const StraightWallsParams& params) {
   Fitter fitter{view, params};
   fitter.fit_all();
-  std::erase_if(fitter.found, [&](const Fitter::Found& one) { return !(one.piece.error <= params.tells); });
-  StraightWalls walls;
-  double weights = 0.0;
-  for (const auto& [piece, samples] : fitter.found) {
-    ++walls.pieces;
-    walls.samples += samples;
+  std::vector<WallPiece> pieces;
+  for (const auto& [piece, samples] : fitter.found)
+    if (piece.error <= params.tells) pieces.push_back({bearing_of(piece), piece.offset, piece.error, samples});
+  return pieces;
+}
+
+void StraightWallsCheck::gather(const SweepView& view) {
+  const double heading = view.odom_from_sensor.theta.radians();
+  std::array<Direction, kDirections> news{};
+  for (const WallPiece& piece : straight_walls_of(view, params_.walls)) {
+    const double turns = (heading + piece.bearing) / (2.0 * std::numbers::pi);
+    const double part = (turns - std::floor(turns)) * static_cast<double>(kDirections);
+    Direction& direction = news[static_cast<std::size_t>(std::lround(part)) % kDirections];
     const double weight = 1.0 / (piece.error * piece.error);
-    weights += weight;
-    walls.offset += weight * piece.offset;
+    direction.weight += weight;
+    direction.sum += weight * piece.offset;
   }
-  if (walls.pieces < params.least_pieces || walls.samples < params.least_of_all) return std::nullopt;
-  walls.offset /= weights;
-  walls.error = std::sqrt(1.0 / weights);
-  int agreeing = 0;
-  double widest = 0.0;
-  const Piece* first = nullptr;
-  for (const auto& [piece, samples] : fitter.found) {
-    if (std::abs(piece.offset - walls.offset) > params.agrees + 2.0 * piece.error) continue;
-    agreeing += samples;
-    if (first == nullptr) first = &piece;
-    widest = std::max(widest, std::abs(Angle::radians(bearing_of(piece) - bearing_of(*first)).radians()));
+  const double keeps = way_ > params_.longest ? 0.5 : 1.0;
+  if (keeps < 1.0) way_ *= keeps;
+  const double most = 1.0 / (params_.remembers * params_.remembers);
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const double kept = std::min(keeps, most / std::max(most, directions_[i].weight));
+    directions_[i].weight = kept * directions_[i].weight + news[i].weight;
+    directions_[i].sum = kept * directions_[i].sum + news[i].sum;
   }
-  walls.agree = agreeing >= params.share * walls.samples && widest >= params.other;
-  return walls;
+}
+
+StraightWallsCheck::Finding StraightWallsCheck::judge() {
+  const double least_variance = params_.least_error * params_.least_error;
+  const auto variance = [&](const Direction& one) { return 1.0 / one.weight + least_variance; };
+  double weights = 0.0, sum = 0.0;
+  int count = 0;
+  for (const Direction& one : directions_) {
+    if (one.weight == 0.0 || 1.0 / one.weight > params_.counts * params_.counts) continue;
+    ++count;
+    weights += 1.0 / variance(one);
+    sum += one.sum / one.weight / variance(one);
+  }
+  if (count < params_.least_directions) return Finding::nothing;
+  offset_ = sum / weights;
+  double agreeing = 0.0;
+  int agree = 0;
+  for (const Direction& one : directions_) {
+    if (one.weight == 0.0 || 1.0 / one.weight > params_.counts * params_.counts) continue;
+    if (std::abs(one.sum / one.weight - offset_) > params_.agrees + std::sqrt(variance(one))) continue;
+    agreeing += 1.0 / variance(one);
+    ++agree;
+  }
+  if (agree < params_.least_directions || agreeing < params_.share * weights) return Finding::nothing;
+  if (std::abs(offset_) <= params_.in_order) return Finding::in_order;
+  const bool is_sure =
+      std::abs(offset_) >= params_.least_offset && std::abs(offset_) >= params_.sure / std::sqrt(weights);
+  const double elsewhere = was_in_order_ ? params_.far_elsewhere : params_.elsewhere;
+  return is_sure && way_ >= elsewhere ? Finding::offset : Finding::nothing;
 }
 
 StraightWallsCheck::Finding StraightWallsCheck::add(const SweepView& view) {
-  constexpr std::size_t kMost = 64;  // sweeps that are remembered
-  const auto walls = straight_walls_of(view, params_);
-  if (!walls || !walls->agree) return Finding::nothing;
-  if (std::abs(walls->offset) <= params_.in_order) {
-    seen_.clear();
+  const Pose2 moved = inverse(last_) * view.odom_from_sensor;
+  const double way = norm(moved.position());
+  const bool is_news = way >= params_.news_way || std::abs(moved.theta.radians()) >= params_.news_turn ||
+                       view.stamp - last_stamp_ >= seconds(params_.news_time);
+  if (has_last_ && !is_news) return Finding::nothing;
+  way_ += has_last_ ? way : 0.0;
+  last_ = view.odom_from_sensor;
+  last_stamp_ = view.stamp;
+  has_last_ = true;
+  gather(view);
+  const Finding found = judge();
+  if (found == Finding::in_order && (!was_in_order_ || way_ >= params_.far_elsewhere)) {
+    directions_ = {};
+    way_ = 0.0;
     was_in_order_ = true;
-    return Finding::in_order;
   }
-  if (std::abs(walls->offset) < params_.least_offset || std::abs(walls->offset) < params_.sure * walls->error)
-    return Finding::nothing;
-  const Point2 here = view.odom_from_sensor.position();
-  int alike = 1;
-  bool is_from_elsewhere = walls->pieces >= params_.many_pieces && !was_in_order_;
-  const double far = was_in_order_ ? params_.far_elsewhere : params_.elsewhere;
-  for (const Seen& one : seen_) {
-    if (std::abs(one.offset - walls->offset) > params_.same) continue;
-    ++alike;
-    is_from_elsewhere = is_from_elsewhere || distance(one.in_odom, here) >= far;
-  }
-  if (seen_.size() >= kMost) seen_.erase(seen_.begin());
-  seen_.push_back({here, walls->offset});
-  if (alike < (was_in_order_ ? params_.more_sweeps : params_.sweeps) || !is_from_elsewhere) return Finding::nothing;
-  offset_ = walls->offset;
-  return Finding::offset;
+  return found;
 }
 
 }  // namespace docent::collision_avoidance

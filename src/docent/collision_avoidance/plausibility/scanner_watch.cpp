@@ -364,6 +364,7 @@ void ScannerWatch::judge_by_walls(const SweepView& view) {
   if (does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
   const std::string what = "the distances of the " + name_ + " are " + to_words(law) + " for walls to be straight";
   convict({.what = what, .by = Lie::By::walls, .law = law}, view.stamp);
+  straight_.forget();  // it may be mended
 }
 
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {

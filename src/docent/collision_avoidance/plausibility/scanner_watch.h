@@ -32,7 +32,7 @@ struct ScannerWatchParams {
   MotionCheckParams motion{};
   MapCheckParams map{};
   RingCheckParams rings{};
-  StraightWallsParams straight{};
+  StraightWallsCheckParams straight{};
   SuccessionParams succession{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
