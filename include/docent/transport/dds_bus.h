@@ -16,6 +16,7 @@
 
 #include "docent/base/result.h"
 #include "docent/transport/bus.h"
+#include "docent/transport/reader_watch.h"
 
 struct ddsi_sertype;
 
@@ -70,6 +71,7 @@ class DdsBus final : public Bus {
     std::uint64_t damaged = 0;   ///< samples dropped, because they are not what their topic promises
     std::uint64_t stale = 0;     ///< samples dropped, because they are older than their topic allows
     std::uint64_t unsent = 0;    ///< samples that a reader who does not keep up has cost
+    std::uint64_t renewed = 0;  ///< readers of sensors that heard nothing though their writer lived, and were made anew
   };
   [[nodiscard]] Counters counters() const { return counters_; }  ///< so far
   /// Of the last 512 calls.
@@ -109,7 +111,10 @@ class DdsBus final : public Bus {
     Handler handler;
     Duration max_age{};                       ///< 0: any
     std::map<std::uint64_t, AgeFilter> ages;  ///< by writer
-    bool is_ready = false;                    ///< guarded by mutex_
+    std::int32_t topic = 0;                   ///< entity
+    TopicInfo info{};
+    ReaderWatch watch;
+    bool is_ready = false;  ///< guarded by mutex_
   };
   struct Timer {
     Steady::time_point due;
@@ -129,6 +134,9 @@ class DdsBus final : public Bus {
   [[nodiscard]] int foreign_endpoints(const std::string& wire_name);
   void write(Writer& writer, const std::shared_ptr<const void>& message);
   void retry_unsent();
+  void open_reader(Subscription& subscription);
+  /// Of sensors; O(subscriptions).
+  void renew_deaf_readers();
   void take(Subscription& subscription);
   [[nodiscard]] bool is_stale(Subscription& subscription, std::uint64_t writer, std::int64_t written_at);
   void add_timer(Steady::time_point due, Duration period, std::function<void()> action);
@@ -148,6 +156,7 @@ class DdsBus final : public Bus {
   std::priority_queue<Timer> timers_;
   std::uint64_t next_order_ = 0;
   bool retry_is_due_ = false;
+  bool watches_readers_ = false;
   Counters counters_;
   std::vector<float> steps_ms_;
   std::size_t next_step_ = 0;

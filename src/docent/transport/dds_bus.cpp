@@ -32,6 +32,7 @@ constexpr int kCommandDepth = 32;
 constexpr dds_duration_t kLiveliness = DDS_SECS(1);
 constexpr dds_duration_t kMaxBlocking = DDS_MSECS(10);
 constexpr std::size_t kStepsKept = 512;
+constexpr Duration kReaderWatch = std::chrono::milliseconds{500};
 constexpr Duration kRetryPeriod = std::chrono::milliseconds{100};
 
 int depth_of(const TopicInfo& info) {
@@ -287,6 +288,16 @@ void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
   subscription.support = topic.support;
   subscription.handler = std::move(handler);
   subscription.max_age = seconds(info.max_age_s);
+  subscription.topic = topic.entity;
+  subscription.info = info;
+  subscription.info.name = subscription.name.c_str();
+  open_reader(subscription);
+  if (info.qos != Qos::sensor || watches_readers_) return;
+  watches_readers_ = true;
+  every(kReaderWatch, [this] { renew_deaf_readers(); });
+}
+
+void DdsBus::open_reader(Subscription& subscription) {
   dds_listener_t* listener = dds_create_listener(&subscription);
   dds_lset_data_available(listener, on_data);
   dds_lset_requested_incompatible_qos(
@@ -295,10 +306,21 @@ void DdsBus::add_subscription(const TopicInfo& info, Handler handler) {
         asking.bus->warn_later("a writer of " + asking.name + " does not offer the " +
                                policy_name(status.last_policy_id) + " that is asked for");
       });
-  const dds_entity_t reader = dds_create_reader(participant_, topic.entity, reader_qos(info).get(), listener);
+  const dds_entity_t reader =
+      dds_create_reader(participant_, subscription.topic, reader_qos(subscription.info).get(), listener);
   dds_delete_listener(listener);
   DOCENT_CHECK(reader > 0);
   subscription.reader = reader;
+}
+
+void DdsBus::renew_deaf_readers() {
+  for (const auto& each : subscriptions_) {
+    if (each->info.qos != Qos::sensor || !each->watch.is_deaf(Steady::now(), alive_writers(each->name) > 0)) continue;
+    dds_delete(each->reader);  // no listener runs after this
+    open_reader(*each);
+    ++counters_.renewed;
+    warn_later("nothing came on " + each->name + " though its writer lives: a new reader is made");
+  }
 }
 
 Duration DdsBus::AgeFilter::excess(Duration age, Steady::time_point at) {
@@ -332,6 +354,7 @@ void DdsBus::take(Subscription& subscription) {
       const auto message = subscription.support->decode(cdr_bytes(samples[i]));
       if (message) {
         ++counters_.received;
+        subscription.watch.hear(Steady::now());
         time_step([&] { subscription.handler(message); });
       } else {
         refuse(subscription.name, {"it", "does not decode"});

@@ -27,6 +27,7 @@ using topics::kStaticMap;
 constexpr int kDomain = 40;
 constexpr int kTypedDomain = 41;
 constexpr int kPrefixDomain = 42;
+constexpr int kDeafDomain = 39;
 
 std::unique_ptr<DdsBus> bus_in(int domain, std::string prefix = {}) {
   auto bus = DdsBus::create({domain, std::move(prefix), {}});
@@ -98,6 +99,29 @@ TEST(DdsBus, ScansOfAnotherProcessArriveAndItsDeathShows) {
   const int before = scans;
   Peer restarted{"scans", kDomain};
   EXPECT_TRUE(run_until(*bus, [&] { return scans > before + 5; })) << "a restarted writer is heard again";
+}
+
+/// Takes the ear of all readers of this process: DDS tells nobody any more that data are there.
+void deafen(int domain) {
+  dds_entity_t participants[4] = {};
+  const dds_return_t found = dds_lookup_participant(static_cast<dds_domainid_t>(domain), participants, 4);
+  for (dds_return_t i = 0; i < std::min(found, 4); ++i) {
+    dds_entity_t children[64] = {};
+    const dds_return_t count = dds_get_children(participants[i], children, 64);
+    for (dds_return_t k = 0; k < std::min(count, 64); ++k) dds_set_listener(children[k], nullptr);
+  }
+}
+
+TEST(DdsBus, AReaderThatHasGoneDeafIsMadeAnew) {
+  const auto bus = bus_in(kDeafDomain);
+  int scans = 0;
+  bus->subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [&](const auto&) { ++scans; });
+  Peer peer{"scans", kDeafDomain};
+  ASSERT_TRUE(run_until(*bus, [&] { return scans >= 40; }));
+  deafen(kDeafDomain);
+  const int before = scans;
+  EXPECT_TRUE(run_until(*bus, [&] { return scans > before + 10; }));
+  EXPECT_EQ(bus->counters().renewed, 1U);
 }
 
 TEST(DdsBus, OtherProgramsThatPublishOnATopicAreCounted) {
