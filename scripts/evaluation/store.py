@@ -63,7 +63,10 @@ def of(lines, word):
 
 def ask(program, file, *what):
     done = subprocess.run([program, file, *what], capture_output=True, text=True, timeout=120)
-    return done.stdout.splitlines()
+    lines = done.stdout.splitlines()
+    for line in of(lines, "refused") + done.stderr.splitlines()[:3] + ([f"signal {-done.returncode}"] if done.returncode < 0 else []):
+        print(f"  {what[0]}: {line}", flush=True)
+    return lines
 
 
 def may_log_in(program, file, said):
@@ -215,6 +218,8 @@ def kills(program, count, seed):
             lines = writer.kill()
             stored |= set(of(lines, "stored"))
             said += of(lines, "notice")
+            for line in of(lines, "refused"):
+                print(f"  run {number}: {line}", flush=True)
             passwords += [line for line in lines if line.startswith(("password ", "trying "))]
             if number % 10 == 9 or number == count - 1:
                 found = ask(program, file, "read")

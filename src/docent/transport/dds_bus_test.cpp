@@ -101,15 +101,19 @@ TEST(DdsBus, ScansOfAnotherProcessArriveAndItsDeathShows) {
   EXPECT_TRUE(run_until(*bus, [&] { return scans > before + 5; })) << "a restarted writer is heard again";
 }
 
-/// Takes the ear of all readers of this process: DDS tells nobody any more that data are there.
-void deafen(int domain) {
+/// Takes the ears of an entity and of all below it: DDS tells nobody any more that data are there.
+void deafen(dds_entity_t entity) {
+  dds_entity_t children[64] = {};
+  const dds_return_t count = dds_get_children(entity, children, 64);
+  for (dds_return_t i = 0; i < std::min(count, 64); ++i) deafen(children[i]);
+  dds_set_listener(entity, nullptr);
+}
+
+/// Likewise of this process.
+void deafen_in(int domain) {
   dds_entity_t participants[4] = {};
   const dds_return_t found = dds_lookup_participant(static_cast<dds_domainid_t>(domain), participants, 4);
-  for (dds_return_t i = 0; i < std::min(found, 4); ++i) {
-    dds_entity_t children[64] = {};
-    const dds_return_t count = dds_get_children(participants[i], children, 64);
-    for (dds_return_t k = 0; k < std::min(count, 64); ++k) dds_set_listener(children[k], nullptr);
-  }
+  for (dds_return_t i = 0; i < std::min(found, 4); ++i) deafen(participants[i]);
 }
 
 TEST(DdsBus, AReaderThatHasGoneDeafIsMadeAnew) {
@@ -118,7 +122,7 @@ TEST(DdsBus, AReaderThatHasGoneDeafIsMadeAnew) {
   bus->subscribe<sensor_msgs::LaserScan>(topics::kScanFront, [&](const auto&) { ++scans; });
   Peer peer{"scans", kDeafDomain};
   ASSERT_TRUE(run_until(*bus, [&] { return scans >= 40; }));
-  deafen(kDeafDomain);
+  deafen_in(kDeafDomain);
   const int before = scans;
   EXPECT_TRUE(run_until(*bus, [&] { return scans > before + 10; }));
   EXPECT_EQ(bus->counters().renewed, 1U);

@@ -163,8 +163,8 @@ void StraightWallsCheck::gather(const SweepView& view) {
     direction.weight += weight;
     direction.sum += weight * piece.offset;
   }
-  const double keeps = way_ > params_.longest ? 0.5 : 1.0;
-  if (keeps < 1.0) way_ *= keeps;
+  const double keeps = fresh_way_ > params_.longest ? 0.5 : 1.0;
+  if (keeps < 1.0) fresh_way_ = 0.0;
   const double most = 1.0 / (params_.remembers * params_.remembers);
   for (std::size_t i = 0; i < kDirections; ++i) {
     const double kept = std::min(keeps, most / std::max(most, directions_[i].weight));
@@ -198,8 +198,7 @@ StraightWallsCheck::Finding StraightWallsCheck::judge() {
   if (std::abs(offset_) <= params_.in_order) return Finding::in_order;
   const bool is_sure =
       std::abs(offset_) >= params_.least_offset && std::abs(offset_) >= params_.sure / std::sqrt(weights);
-  const double elsewhere = was_in_order_ ? params_.far_elsewhere : params_.elsewhere;
-  return is_sure && way_ >= elsewhere ? Finding::offset : Finding::nothing;
+  return is_sure && way_ >= params_.elsewhere && !was_in_order_ ? Finding::offset : Finding::nothing;
 }
 
 StraightWallsCheck::Finding StraightWallsCheck::add(const SweepView& view) {
@@ -209,16 +208,13 @@ StraightWallsCheck::Finding StraightWallsCheck::add(const SweepView& view) {
                        view.stamp - last_stamp_ >= seconds(params_.news_time);
   if (has_last_ && !is_news) return Finding::nothing;
   way_ += has_last_ ? way : 0.0;
+  fresh_way_ += has_last_ ? way : 0.0;
   last_ = view.odom_from_sensor;
   last_stamp_ = view.stamp;
   has_last_ = true;
   gather(view);
   const Finding found = judge();
-  if (found == Finding::in_order && (!was_in_order_ || way_ >= params_.far_elsewhere)) {
-    directions_ = {};
-    way_ = 0.0;
-    was_in_order_ = true;
-  }
+  was_in_order_ = was_in_order_ || found == Finding::in_order;
   return found;
 }
 

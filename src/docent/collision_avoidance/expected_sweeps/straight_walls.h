@@ -49,12 +49,12 @@ struct StraightWallsCheckParams {
   double sure = 5.0;           ///< standard deviations
   double in_order = 0.12;      ///< [m] at most, of a scanner in order
   double least_offset = 0.25;  ///< [m] a smaller one is for the sweep before and the map
-  double elsewhere = 0.5;      ///< [m] of way, by which walls must be seen from other places;
-  double far_elsewhere = 6.0;  ///< [m] likewise of a scanner that was in order: offsets that begin show otherwise
+  double elsewhere = 0.5;      ///< [m] of way, by which walls must be seen from other places
 };
 
 /// Gathers what straight pieces say, by the directions of the walls: where a robot goes it sees few that are long, and
-/// many that are cut into pieces by people and things.
+/// many that are cut into pieces by people and things. A scanner that was in order is not blamed by them any more:
+/// offsets that begin later show to the sweep before and to the map, and some corner of a building always looks bent.
 class StraightWallsCheck {
  public:
   explicit StraightWallsCheck(const StraightWallsCheckParams& params = {}) : params_{params} {}
@@ -80,7 +80,8 @@ class StraightWallsCheck {
   Pose2 last_;  ///< odom_from_sensor of the last news
   Time last_stamp_{};
   bool has_last_ = false;
-  double way_ = 0.0;  ///< [m] since the first news
+  double way_ = 0.0;        ///< [m] since the first news
+  double fresh_way_ = 0.0;  ///< [m] since something was forgotten
   bool was_in_order_ = false;
   double offset_ = 0.0;
 };

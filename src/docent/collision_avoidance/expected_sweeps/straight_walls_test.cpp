@@ -60,10 +60,9 @@ TEST_F(StraightWallsTest, AnOffsetIsFoundInSomeDecimetresOfWay) {
   EXPECT_EQ(drive(1.0, 0.0), Finding::in_order);
 }
 
-TEST_F(StraightWallsTest, AScannerThatWasInOrderMustBeSeenWrongOnMoreWay) {
+TEST_F(StraightWallsTest, AScannerThatWasInOrderIsNotBlamedAnyMore) {
   EXPECT_EQ(drive(1.0, 0.0), Finding::in_order);
-  EXPECT_NE(drive(1.0, 0.5, 3.0), Finding::offset);
-  EXPECT_EQ(drive(1.0, 0.5, 9.0), Finding::offset);
+  EXPECT_NE(drive(1.0, 0.5, 9.0), Finding::offset);
 }
 
 TEST_F(StraightWallsTest, ABentWallIsNoOffset) {

@@ -357,12 +357,12 @@ void ScannerWatch::judge_by_rings(const SweepView& view, const RingCheck::Findin
 }
 
 void ScannerWatch::judge_by_walls(const SweepView& view) {
-  const auto found = form_.is_silent || breaks_ ? StraightWallsCheck::Finding::nothing : straight_.add(view);
-  if (found == StraightWallsCheck::Finding::in_order && lie_ && lie_->by == Lie::By::walls) acquit();
-  if (found != StraightWallsCheck::Finding::offset) return;
+  const auto found = form_.is_silent ? StraightWallsCheck::Finding::nothing : straight_.add(view);
+  const bool is_accused = lie_ && lie_->by == Lie::By::walls;
+  if (found == StraightWallsCheck::Finding::in_order && is_accused) return acquit(), begin_anew(view);
   const RangeLaw law{.offset = straight_.offset()};
-  if (does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
-  const std::string what = "the distances of the " + name_ + " are " + to_words(law) + " for walls to be straight";
+  if (found != StraightWallsCheck::Finding::offset || does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
+  const std::string what = "walls that the " + name_ + " sees are bent: its distances are " + to_words(law);
   convict({.what = what, .by = Lie::By::walls, .law = law}, view.stamp);
   straight_.forget();  // it may be mended
 }

@@ -127,7 +127,7 @@ constexpr Broken kBroken[] = {
      "odometry_jump, lie, transport, charger)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
-     "s.yaml:3: unknown key 'where' (known: from_hazards, heading, near_hazards, shift, to, turn)"},
+     "s.yaml:3: unknown key 'where' (known: from_hazards, heading, keeps_speed, near_hazards, shift, to, turn)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1, 2], shift: 3}", "s.yaml:3: 'to' or 'shift', not both"},
     {"events:\n  - at: 1\n    kidnap: [1, 2]", "s.yaml:3: expected a mapping (key: value)"},
     {"events:\n  - at: 1\n    fault: {sensor: nose, kind: dead}",
