@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <string_view>
 
+#include "docent/base/text.h"
 #include "docent/recording/mcap/format.h"
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/rosbag/bag_metadata.h"
@@ -19,27 +19,30 @@ namespace {
 namespace fs = std::filesystem;
 using Handler = std::function<bool(const Rosbag2Message&)>;
 
-bool begins_with(const fs::path& path, std::string_view bytes) {
-  std::string head(bytes.size(), '\0');
-  std::ifstream file{path, std::ios::binary};
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return file.gcount() == static_cast<std::streamsize>(bytes.size()) && head == bytes;
-}
 bool is_mcap(const fs::path& path) {
   return begins_with(path, {reinterpret_cast<const char*>(mcap::kMagic.data()), mcap::kMagic.size()});
 }
 bool is_database(const fs::path& path) { return begins_with(path, "SQLite format 3"); }
 
+/// What was packed message by message, unpacked into `room`; nothing, where it is damaged.
+std::span<const std::uint8_t> plain(std::span<const std::uint8_t> data, std::vector<std::uint8_t>& room) {
+  if (!is_zstd(data)) return data;
+  auto whole = unpack_zstd(data);
+  room = whole ? std::move(*whole) : std::vector<std::uint8_t>{};
+  return room;
+}
+
 Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector<std::string>& notes) {
   auto reader = McapReader::open(path);
   if (!reader) return tl::unexpected<Error>(reader.error());
   std::map<std::string, std::string> foreign;  // topic, encoding
+  std::vector<std::uint8_t> unpacked;
   McapReader::Selection all;
   all.skip_damaged = true;
   const auto read = reader->read(all, [&](const McapMessage& message) {
     const McapChannel& channel = message.channel;
     if (channel.encoding == "cdr" || channel.encoding.empty())
-      return handler({channel.topic, channel.type, message.log_time, message.data});
+      return handler({channel.topic, channel.type, message.log_time, plain(message.data, unpacked)});
     const ConvertedMessage converted =
         channel.encoding == "ros1" ? converted_from_ros1(channel.type, message.data) : ConvertedMessage{nullptr, {}};
     if (converted.type == nullptr && channel.encoding != "ros1") foreign[channel.topic] = channel.encoding;
