@@ -52,9 +52,8 @@ Json answer_of(const Result<LoadedMap>& read) {
     cells += kDigits[byte >> 4U];
     cells += kDigits[byte & 15U];
   }
-  return {{"columns", frame.columns},   {"rows", frame.rows},      {"resolution", frame.resolution},
-          {"x", frame.origin.x},        {"y", frame.origin.y},     {"notes", read->notes},
-          {"cells", std::move(cells)}};
+  return {{"columns", frame.columns}, {"rows", frame.rows},   {"resolution", frame.resolution}, {"x", frame.origin.x},
+          {"y", frame.origin.y},      {"notes", read->notes}, {"cells", std::move(cells)}};
 }
 
 Json list_of(const Pose2& pose) { return Json::array({pose.x, pose.y, pose.theta.radians()}); }
@@ -73,8 +72,11 @@ Json answer_of(const Result<recording::LaserLog>& read) {
                      {"odometry", list_of(scan.odom_from_base)},
                      {"mount", list_of(scan.base_from_laser)}});
   }
-  return {{"scans", std::move(scans)},   {"readings", read->odometry.size()}, {"reach", read->max_range},
-          {"sources", read->sources},    {"notes", read->notes}};
+  return {{"scans", std::move(scans)},
+          {"readings", read->odometry.size()},
+          {"reach", read->max_range},
+          {"sources", read->sources},
+          {"notes", read->notes}};
 }
 
 Json answer_to(const Json& request, const std::string& crippled) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,17 @@ namespace docent {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text.empty() ? none : text;
+}
+
+/// "[1, 0.25]", as `read_yaml` reads it: numbers for a file of YAML, nine digits of each; they must be finite.
+[[nodiscard]] inline std::string yaml_list(std::span<const double> values) {
+  std::string text = "[";
+  for (const double value : values) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%s%.9g", text.size() > 1 ? ", " : "", value);
+    text += number;
+  }
+  return text + "]";
 }
 
 /// Whether the file's first bytes are these. A file that cannot be read begins with nothing.

@@ -92,9 +92,20 @@ class PgmImage final : public MapImage {
     const auto here = file_.tellg();
     std::uintmax_t count = 0;
     for (; count < most && std::isspace(file_.peek()) != 0; ++count) take();
-    if (count == most) return;
+    file_.clear();
+    const bool is_header = count == most && !ends_in_white_space();
+    if (count == most && !is_header)
+      note_ = "its header may end in more than one white space: if all is shifted by a pixel, save it anew";
+    if (is_header) return;
     file_.seekg(here);
     at_ -= count;
+  }
+  [[nodiscard]] bool ends_in_white_space() {
+    const auto here = file_.tellg();
+    file_.seekg(-1, std::ios::end);
+    const bool is_space = std::isspace(file_.peek()) != 0;
+    file_.seekg(here);
+    return is_space;
   }
   /// The next number, behind white space and comments; a comment ends with its line.
   bool read_number(long& number) {

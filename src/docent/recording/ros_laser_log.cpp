@@ -19,7 +19,7 @@ constexpr Duration kStep = std::chrono::milliseconds{20};  ///< from message to 
 constexpr double kTilt = 0.15;                             ///< [rad] from here on a scanner's plane is not the floor's
 constexpr double kStill = 1e-3;                            ///< [m, rad]
 constexpr double kLeastWay = 1.0;                          ///< [m] by speeds
-constexpr Duration kApart = std::chrono::seconds{1};  ///< clocks; less may be the time that a message takes
+constexpr Duration kApart = std::chrono::seconds{1};       ///< clocks; less may be the time that a message takes
 
 /// The same scan with its beams in the order of rising bearings, and with a reach: drivers that know none say infinity.
 sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
@@ -272,19 +272,21 @@ Result<void> RosLaserLogBuilder::choose() {
     const std::string& frame = scans.front().message.header.frame_id;
     const FrameTree frames = frames_of(topic);
     const std::vector<std::string> all = bases();
-    const bool has_place = std::any_of(all.begin(), all.end(), [&](const std::string& base) {
-                             return frames.mount_of(frame, base).has_value();
-                           }) || frames.mount_of(frame, "").has_value();
+    const bool has_place =
+        std::any_of(all.begin(), all.end(),
+                    [&](const std::string& base) { return frames.mount_of(frame, base).has_value(); }) ||
+        frames.mount_of(frame, "").has_value();
     recorded.scans[topic] = {scans.size(), frame, has_place};
   }
   auto chosen = choose_topics(recorded, options_.topics);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   chosen_ = std::move(*chosen);
   log_.notes.insert(log_.notes.end(), chosen_.notes.begin(), chosen_.notes.end());
-  log_.sources = "scans of " + listed(chosen_.scans) +
-                 (!chosen_.odometry.empty()  ? ", odometry of " + chosen_.odometry
-                  : chosen_.is_by_transforms ? ", odometry of the transforms of " + tf_odometry_[chosen_.transforms].topic
-                                             : ", no odometry");
+  log_.sources =
+      "scans of " + listed(chosen_.scans) +
+      (!chosen_.odometry.empty()  ? ", odometry of " + chosen_.odometry
+       : chosen_.is_by_transforms ? ", odometry of the transforms of " + tf_odometry_[chosen_.transforms].topic
+                                  : ", no odometry");
   return {};
 }
 

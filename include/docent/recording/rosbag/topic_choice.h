@@ -26,8 +26,8 @@ struct RecordedTopics {
   };
   /// Of one topic.
   struct Odometry {
-    std::size_t count = 0;  ///< messages
-    std::string parent;     ///< "odom"
+    std::size_t count = 0;   ///< messages
+    std::string parent;      ///< "odom"
     std::string child = {};  ///< "base_link"
   };
   std::map<std::string, Scans> scans = {};        ///< by topic

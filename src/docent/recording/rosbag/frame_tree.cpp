@@ -129,8 +129,7 @@ std::optional<Mount> FrameTree::mount_of(const std::string& frame, const std::st
   const Vector3 ahead = rotated(mounted.rotation, {1.0, 0.0, 0.0});
   const Vector3 up = rotated(mounted.rotation, {0.0, 0.0, 1.0});
   Mount mount;
-  mount.base_from_sensor = {mounted.translation.x, mounted.translation.y,
-                            Angle::radians(std::atan2(ahead.y, ahead.x))};
+  mount.base_from_sensor = {mounted.translation.x, mounted.translation.y, Angle::radians(std::atan2(ahead.y, ahead.x))};
   mount.is_upside_down = up.z < 0.0;
   mount.tilt = std::acos(std::min(1.0, std::abs(up.z)));
   mount.moves = moves || shared->moves;

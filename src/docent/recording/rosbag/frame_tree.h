@@ -26,8 +26,8 @@ class FrameTree {
   void add_moving(const geometry_msgs::TransformStamped& transform);
   /// What the other one says and this one does not.
   void add(const FrameTree& other);
-  /// From the robot's base to the frame: over the frame that both hang on, whichever is the other's parent; where `base`
-  /// is not in the tree, from what is usually called so. nullopt: nobody says it, or it lies far off any robot.
+  /// From the robot's base to the frame: over the frame that both hang on, whichever is the other's parent; where
+  /// `base` is not in the tree, from what is usually called so. nullopt: nobody says it, or it lies far off any robot.
   [[nodiscard]] std::optional<Mount> mount_of(const std::string& frame, const std::string& base) const;
 
  private:
@@ -56,7 +56,8 @@ class FrameTree {
 [[nodiscard]] std::string prefix_of(const std::string& frame);
 /// Whether it is what bases are usually called.
 [[nodiscard]] bool is_base(const std::string& frame);
-/// Odometry told by a transform: from a frame called odom, or odom_combined and the like, to the robot, whatever its name.
+/// Odometry told by a transform: from a frame called odom, or odom_combined and the like, to the robot, whatever its
+/// name.
 [[nodiscard]] bool tells_odometry(const geometry_msgs::TransformStamped& transform);
 
 }  // namespace docent::recording

@@ -77,7 +77,8 @@ class Ros1Bag {
       }
       const auto op = number_of<std::uint8_t>(*fields, "op");
       if (const std::string encryptor = text_of(*fields, "encryptor"); op == kHead && !encryptor.empty())
-        return fail(name_ + ": is encrypted by " + encryptor.substr(0, 60) + ": `rosbag decrypt` makes a plain one of it");
+        return fail(name_ + ": is encrypted by " + encryptor.substr(0, 60) +
+                    ": `rosbag decrypt` makes a plain one of it");
       if (op == kChunk)
         take_chunk(*fields, data);
       else

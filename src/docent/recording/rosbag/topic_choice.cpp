@@ -21,8 +21,8 @@ bool holds_one_of(const std::string& topic, const std::array<std::string_view, N
 
 /// Where a robot truly is, or is in its map, is not what its wheels say.
 bool is_truth(const std::string& topic, const RecordedTopics::Odometry& odometry) {
-  constexpr std::array<std::string_view, 14> kWords{"truth", "/gt",       "_gt",      "mocap",  "vicon",
-                                                    "vrpn",  "optitrack", "qualisys", "p3d",    "gazebo",
+  constexpr std::array<std::string_view, 14> kWords{"truth", "/gt",       "_gt",      "mocap", "vicon",
+                                                    "vrpn",  "optitrack", "qualisys", "p3d",   "gazebo",
                                                     "/sim/", "perfect",   "ideal",    "exact_"};
   const std::string parent = odometry.parent.substr(odometry.parent.rfind('/') + 1);
   return holds_one_of(topic, kWords) || parent == "map" || parent == "world" || parent == "earth";
@@ -64,10 +64,10 @@ std::string robot_of(const std::string& topic, const std::string& frame, const R
       if (name_space == robot || lies_in(name_space, robot)) return robot;
   }
   const std::string robot = robot_of_frame(frame);
-  const bool is_known = !robot.empty() && (recorded.transforms.contains(robot) ||
-                                           std::any_of(recorded.odometry.begin(), recorded.odometry.end(), [&](const auto& of) {
-                                             return robot_of_frame(of.second.child) == robot;
-                                           }));
+  const bool is_known =
+      !robot.empty() && (recorded.transforms.contains(robot) ||
+                         std::any_of(recorded.odometry.begin(), recorded.odometry.end(),
+                                     [&](const auto& of) { return robot_of_frame(of.second.child) == robot; }));
   return is_known ? robot : std::string{};
 }
 
