@@ -82,12 +82,14 @@ for name in ("LZ4F_compressFrameBound", "LZ4F_compressFrame"):
 
 def zstd(data):
     room = ctypes.create_string_buffer(ZSTD.ZSTD_compressBound(ctypes.c_size_t(len(data))))
-    return room.raw[:ZSTD.ZSTD_compress(room, ctypes.c_size_t(len(room)), data, ctypes.c_size_t(len(data)), 1)]
+    size = ZSTD.ZSTD_compress(room, ctypes.c_size_t(len(room)), data, ctypes.c_size_t(len(data)), 1)
+    return room.raw[:size]
 
 
 def lz4(data):
     room = ctypes.create_string_buffer(LZ4.LZ4F_compressFrameBound(ctypes.c_size_t(len(data)), None))
-    return room.raw[:LZ4.LZ4F_compressFrame(room, ctypes.c_size_t(len(room)), data, ctypes.c_size_t(len(data)), None)]
+    size = LZ4.LZ4F_compressFrame(room, ctypes.c_size_t(len(room)), data, ctypes.c_size_t(len(data)), None)
+    return room.raw[:size]
 
 
 PACKED = {"": lambda d: d, "none": lambda d: d, "zstd": zstd, "lz4": lz4, "bz2": bz2.compress}
@@ -116,8 +118,8 @@ def data_of(content):
     return content[1] if isinstance(content, tuple) and content[0] == "raw" else encoded(content)
 
 
-def mcap(path, messages, packing="", chunks=3, encoding="cdr", pack=lambda d: d, ends=True):
-    """One file; without chunks where `chunks` is 0."""
+def mcap(path, messages, packing="", chunks=3, encoding="cdr", pack=lambda d: d, whole_chunks=False):
+    """One file; without chunks where `chunks` is 0. whole_chunks: each says its channels anew."""
     def record(op, body):
         return bytes([op]) + struct.pack("<Q", len(body)) + body
 
@@ -125,10 +127,11 @@ def mcap(path, messages, packing="", chunks=3, encoding="cdr", pack=lambda d: d,
         return struct.pack("<I", len(s)) + s.encode()
     ids, pieces, size = {}, [], max(1, -(-len(messages) // max(1, chunks)))
     for begin in range(0, max(1, len(messages)), size):
-        piece = b""
+        piece, said = b"", set() if whole_chunks else set(ids)
         for topic, kind, time, content in messages[begin:begin + size]:
-            if topic not in ids:
-                ids[topic] = len(ids) + 1
+            if topic not in said:
+                said.add(topic)
+                ids.setdefault(topic, len(ids) + 1)
                 piece += record(3, struct.pack("<H", ids[topic]) + text(kind) + text("ros2msg") + struct.pack("<I", 0))
                 piece += record(4, struct.pack("<HH", ids[topic], ids[topic]) + text(topic) + text(encoding) + struct.pack("<I", 0))
             data = encoded(content, False) if encoding == "ros1" else data_of(content)
@@ -138,7 +141,7 @@ def mcap(path, messages, packing="", chunks=3, encoding="cdr", pack=lambda d: d,
         pieces.append(record(6, struct.pack("<QQQI", min(times), max(times), len(piece), zlib.crc32(piece)) + text(packing) +
                              struct.pack("<Q", len(packed)) + packed) if chunks else piece)
     end = record(15, struct.pack("<I", 0)) + record(2, struct.pack("<QQI", 0, 0, 0)) + b"\x89MCAP0\r\n"
-    path.write_bytes(b"\x89MCAP0\r\n" + record(1, text("ros2") + text("odd")) + b"".join(pieces) + (end if ends else b""))
+    path.write_bytes(b"\x89MCAP0\r\n" + record(1, text("ros2") + text("odd")) + b"".join(pieces) + end)
 
 
 def ros1_bag(path, messages, packing="none", chunks=3, index=True, terminal=True, shuffle=None, encryptor=""):

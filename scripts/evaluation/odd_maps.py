@@ -31,7 +31,7 @@ class Meaning:
             return None if abs(percent % 1 - 0.5) < 0.02 else int(round(percent)) if percent < 100.5 else UNKNOWN
         if min(abs(occupied - self.occupied), abs(occupied - self.free)) < MARGIN and abs(share - 205 / 255) > 1e-9:
             return None
-        if self.mode == "trinary" and not self.negate and abs(share - SAVERS_UNKNOWN) < MARGIN:
+        if self.mode == "trinary" and not self.negate and abs(share - SAVERS_UNKNOWN) < 1.5 * MARGIN:
             return UNKNOWN if abs(share - SAVERS_UNKNOWN) < 1e-9 else None
         if occupied > self.occupied:
             return WALL
@@ -326,7 +326,7 @@ def yaml_path(folder, rng):
     base = folder / "in"
     (base / "sub").mkdir(parents=True)
     if name in ("gone.pgm", "C:\\maps\\m.pgm", "/home/else/m.pgm"):
-        made = case_of(base, rng, meaning, None, pgm(rows, white, rng), yaml=Yaml(rng, meaning, said), refusal="image .*(gone.pgm|m.pgm)")
+        made = case_of(base, rng, meaning, None, pgm(rows, white, rng), yaml=Yaml(rng, meaning, said), refusal="image .*(gone.pgm|m.pgm)|not valid YAML")
         return made
     return case_of(base, rng, meaning, truth, pgm(rows, white, rng), said if name == "absolute" else name, yaml=Yaml(rng, meaning, said))
 

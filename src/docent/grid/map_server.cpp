@@ -23,6 +23,7 @@ namespace docent {
 namespace {
 
 constexpr double kSaversUnknown = 205.0 / 255.0;  ///< of white
+constexpr double kNearSaversUnknown = 0.005;      ///< of white
 constexpr std::size_t kLarge = 25'000'000;        ///< [cells]: of a larger map only what is known is kept
 constexpr std::size_t kMost = 400'000'000;        ///< [cells]
 constexpr int kRim = 20;                          ///< [cells] of what is unknown round what is kept
@@ -122,7 +123,8 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
 /// What each shade from 0 to `white` says by the file's mode.
 std::vector<std::int8_t> cells_of_shades(const Meaning& meaning, std::uint32_t white) {
   std::vector<std::int8_t> cells(white + std::size_t{1});
-  const double step = std::max(0.5 / 255.0, 0.5 / white);
+  // Of a coarser white the shade that it is rounded to, if that is near enough to be it.
+  const double step = std::clamp(0.5 / white, 0.5 / 255.0, kNearSaversUnknown);
   for (std::uint32_t value = 0; value <= white; ++value) {
     const double shade = static_cast<double>(value) / white;
     const double occupied = meaning.is_negated ? shade : 1.0 - shade;

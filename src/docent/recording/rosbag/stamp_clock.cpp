@@ -23,8 +23,10 @@ std::size_t let_go_on(std::vector<Time>& times, const std::vector<RecordedStamp>
   for (std::size_t from = 0, to = 0; from < stamps.size(); from = to) {
     for (to = from; to < stamps.size() && stamps[to].stamp == stamps[from].stamp;) ++to;
     if (to - from < kStands || stamps[to - 1].recorded - stamps[from].recorded < kStandsFor) continue;
-    for (std::size_t i = from; i < to; ++i)
-      times[i] = stamps[from].stamp + (stamps[i].recorded - stamps[from].recorded);
+    // The first that stands may be late already: what came before tells how far the clock was.
+    const std::size_t before = from > 0 ? from - 1 : from;
+    const Time right = times[before];
+    for (std::size_t i = from; i < to; ++i) times[i] = right + (stamps[i].recorded - stamps[before].recorded);
     moved += to - from - 1;
   }
   return moved;
