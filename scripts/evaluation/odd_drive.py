@@ -122,7 +122,7 @@ class Scanner:
         for k in range(rng.randrange(3) if chain is None else chain):
             between = turn_about(rng.randrange(3), rng.uniform(-2, 2)) @ turn_about(rng.randrange(3), rng.uniform(-2, 2))
             at = np.array([rng.uniform(-0.3, 0.3) for _ in range(3)])
-            child = f"{base.rsplit('/', 1)[0] + '/' if '/' in base else ''}mast{k}"
+            child = f"{base.rsplit('/', 1)[0] + '/' if '/' in base else ''}mast{k}_{self.frame.rsplit('/', 1)[-1]}"
             all_of.append((stamp, parent, child, tuple(at), quaternion_of(between)))
             place, turn, parent = between.T @ (place - at), between.T @ turn, child
         all_of.append((stamp, parent, self.frame, tuple(place), quaternion_of(turn)))

@@ -90,6 +90,7 @@ Json answer_to(const Json& request, const std::string& crippled) {
   if (request.contains("scans")) options.topics.scans = request.at("scans").get<std::vector<std::string>>();
   options.topics.odometry = request.value("odometry", options.topics.odometry);
   options.topics.robot = request.value("robot", options.topics.robot);
+  if (request.value("times", "") == "index") options.times = recording::LogTimes::index;
   return answer_of(recording::read_laser_log(path, options));
 }
 
