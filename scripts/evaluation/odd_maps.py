@@ -169,7 +169,7 @@ def pgm_size(folder, rng):
         head = f"P5{rng.choice([' ', chr(10)])}{truth.shape[1]} {truth.shape[0]}\n255{rng.choice([' ', chr(9), ''])}{rng.choice([chr(10), chr(13) + chr(10), '  '])}"
         return case_of(folder, rng, meaning, truth, pgm(rows, 255, rng, head=head.encode()))
     if odd == "numbers":
-        return case_of(folder, rng, meaning, truth, pgm(rows, 255, rng, text=True, tail=b"0 0 0 254\n"), say="longer")
+        return case_of(folder, rng, meaning, truth, pgm(rows, 255, rng, text=True, tail=b"0 0 0 254\n"), say="more pixels")
     if odd == "few numbers":
         short = pgm(rows, 255, rng, text=True, head=f"P2\n{truth.shape[1]} {truth.shape[0]}\n255\n".encode())
         return case_of(folder, rng, meaning, None, short[:len(short) // 2], refusal="early|above")
@@ -353,7 +353,7 @@ def yaml_wrong(folder, rng):
                              ("origin", "[0, 0]"), ("origin", "[0, 0, 0, 0, 0, 0]"), ("origin", "{x: 0, y: 0}"), ("origin", "[0, .inf, 0]"), ("origin", "[a, 0, 0]"),
                              ("origin", "0 0 0"), ("negate", "2"), ("negate", "maybe"), ("mode", "gray"), ("occupied_thresh", "65"), ("free_thresh", "0.9"), ("image", "")])
     yaml.fields[key] = value
-    made = case_of(folder, rng, meaning, None, pgm(rows, white, rng), yaml=yaml, refusal=key.replace("free_thresh", "thresh"))
+    made = case_of(folder, rng, meaning, None, pgm(rows, white, rng), yaml=yaml, refusal=key.replace("free_thresh", "thresh") + r"|m.yaml:\d+: ")
     if rng.random() < 0.2:
         text = rng.choice([b"", b"\0\1\2", b"[1, 2", b"- image\n", "image: m.pgm\n".encode("utf-16"), b"image: m.pgm\n"])
         open(made["path"], "wb").write(text)

@@ -22,6 +22,8 @@ using Handler = std::function<bool(const Rosbag2Message&)>;
 bool is_mcap(const fs::path& path) {
   return begins_with(path, {reinterpret_cast<const char*>(mcap::kMagic.data()), mcap::kMagic.size()});
 }
+/// "#ROSRECORD V1.2" is the name of older ones.
+bool is_ros1_bag(const fs::path& path) { return begins_with(path, "#ROSBAG V") || begins_with(path, "#ROSRECORD V"); }
 bool is_database(const fs::path& path) { return begins_with(path, "SQLite format 3"); }
 
 /// What was packed message by message, unpacked into `room`; nothing, where it is damaged.
@@ -79,7 +81,7 @@ class Scratch {
 };
 
 Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std::vector<std::string>& notes) {
-  if (begins_with(path, "#ROSBAG V")) return read_ros1_bag(path, handler, notes);
+  if (is_ros1_bag(path)) return read_ros1_bag(path, handler, notes);
   if (begins_with(path, "\x28\xb5\x2f\xfd")) {
     const Scratch scratch;
     if (scratch.path().empty()) return fail(path.string() + ": no folder to unpack it in");
@@ -98,7 +100,7 @@ Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std:
 bool is_bag(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return true;
-  return is_part_of_bag(path) || path.extension() == ".bag" || is_mcap(path) || begins_with(path, "#ROSBAG V") ||
+  return is_part_of_bag(path) || path.extension() == ".bag" || is_mcap(path) || is_ros1_bag(path) ||
          (!fs::exists(path, error) && fs::exists(unfinished_path(path), error));
 }
 

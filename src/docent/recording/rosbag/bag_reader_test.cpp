@@ -148,6 +148,11 @@ TEST_F(Bags, WhatIsNoRecordingIsAnError) {
   EXPECT_FALSE(read_bag(folder_ / "a.mcap", nothing, notes_));
   fs::remove(folder_ / "a.mcap");
   EXPECT_FALSE(read_bag(folder_, nothing, notes_));
+  ASSERT_TRUE(write_file_atomically(folder_ / "old.orig", "#ROSRECORD V1.2\nand so on"));
+  EXPECT_TRUE(is_bag(folder_ / "old.orig"));
+  const auto old = read_bag(folder_ / "old.orig", nothing, notes_);
+  ASSERT_FALSE(old);
+  EXPECT_NE(old.error().message.find("rosbag migrate"), std::string::npos) << old.error().message;
   EXPECT_FALSE(is_bag(folder_ / "a.txt"));
   EXPECT_TRUE(is_bag(folder_));
 }
