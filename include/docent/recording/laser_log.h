@@ -64,10 +64,17 @@ struct LaserLog {
   std::vector<std::string> notes;
 };
 
+/// Where the times of a recording of ROS come from.
+enum class LogTimes {
+  stamps,  ///< of the messages; what a clock did that jumps or stands is mended
+  index    ///< the order of the messages alone, in even steps: for clocks of no use
+};
+
 /// How a recording is read.
 struct LaserLogOptions {
   bool with_sonars = false;  ///< also every ultrasonic sensor_msgs/Range whose frame has a place; a CARMEN log has none
   WantedTopics topics = {};  ///< of a ROS recording
+  LogTimes times = LogTimes::stamps;  ///< of a ROS recording
 };
 
 /// Reads what `--log` names, by its content: a CARMEN text log (plain or gzip), an MCAP recording, a rosbag2 folder or

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ class RosLaserLogBuilder {
   };
   struct OdometryTopic {
     std::vector<Odometry> readings;
+    std::string topic;
     std::string parent, child;  ///< frames
   };
   struct Ping {
@@ -47,6 +49,9 @@ class RosLaserLogBuilder {
     std::size_t count = 0;
     std::string first;
   };
+  /// Of odometry told by transforms: the topic's name space, and behind it the prefix of the frames.
+  [[nodiscard]] static std::string robot_of(const std::string& topic, const geometry_msgs::TransformStamped& transform);
+  [[nodiscard]] RecordedStamp stamp_of(const std_msgs::Header& header, Time recorded) const;
   void refuse(const std::string& topic, const std::string& why);
   [[nodiscard]] std::string refused_text() const;
   template <class T>
@@ -58,7 +63,14 @@ class RosLaserLogBuilder {
   void take_transforms(const std::string& topic, tf2_msgs::TFMessage message, Time recorded);
 
   [[nodiscard]] Result<void> choose();
-  [[nodiscard]] const FrameTree& frames_of(const std::string& topic) const;
+  /// Of the topic's name space, with what those around it say.
+  [[nodiscard]] FrameTree frames_of(const std::string& topic) const;
+  /// The bases of robots that have an odometry.
+  [[nodiscard]] std::vector<std::string> bases() const;
+  /// In the order of the file's times, each message once.
+  template <class T>
+  void put_in_order(const std::string& topic, std::vector<T>& messages);
+  void say_of_mount(const std::string& frame, const std::optional<Mount>& mount);
   void use_odometry();
   /// What no base can have driven, as when a driver begins anew at zero.
   void take_out_jumps();
@@ -71,13 +83,14 @@ class RosLaserLogBuilder {
   LaserLogOptions options_;
   std::map<std::string, std::vector<Scan>> scans_;    ///< by topic
   std::map<std::string, OdometryTopic> odometry_;     ///< by topic
-  std::map<std::string, OdometryTopic> tf_odometry_;  ///< by name space
+  std::map<std::string, OdometryTopic> tf_odometry_;  ///< by robot_of; of several frames of one the base's
   std::map<std::string, FrameTree> frames_;           ///< by name space
   std::vector<Ping> pings_;
   std::map<std::string, Refused> refused_;  ///< by topic
   RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
   ChosenTopics chosen_;
   std::string base_frame_;
+  std::int64_t count_ = 0;                ///< of messages that have a time
   Duration odometry_ahead_{};             ///< of its clock before that of the file
   std::vector<std::string> scan_frames_;  ///< [scans of the log]
   LaserLog log_;

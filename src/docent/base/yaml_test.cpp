@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "docent/base/yaml_list.h"
+#include "docent/base/text.h"
 
 namespace docent {
 namespace {

@@ -34,8 +34,8 @@ class PgmImage final : public MapImage {
       return {};
     }
     const std::uintmax_t wanted = count * sample_;
-    const int end = take();  // the one white space behind the header
-    if (end == '\r' && rest() > wanted && file_.peek() == '\n') take();
+    take();  // the one white space behind the header
+    if (rest() > wanted) pass_white_space(rest() - wanted);
     if (rest() < wanted)
       return fault("PGM ends early: " + std::to_string(wanted) + " bytes of pixels expected, " +
                    std::to_string(rest()) + " found");
@@ -54,18 +54,25 @@ class PgmImage final : public MapImage {
           return fault("PGM ends early or holds a value above its white");
         shade = static_cast<std::uint32_t>(number);
       }
+      if (long number = 0; ++rows_ == height_ && read_number(number))
+        note_ = "the file holds more pixels than its header says; they are left out";
       return {};
     }
     row_.resize(shades.size() * sample_);
     if (!file_.read(row_.data(), static_cast<std::streamsize>(row_.size()))) return fault("PGM ends early");
     const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(row_[k])); };
-    for (std::size_t i = 0; i < shades.size(); ++i)
-      shades[i] = std::min(white_, sample_ == 1 ? byte(i) : byte(2 * i) << 8U | byte(2 * i + 1));
+    for (std::size_t i = 0; i < shades.size(); ++i) {
+      shades[i] = sample_ == 1 ? byte(i) : byte(2 * i) << 8U | byte(2 * i + 1);
+      if (shades[i] > white_)
+        return fault("PGM holds a value above its white: " + std::to_string(shades[i]) + " where white is " +
+                     std::to_string(white_));
+    }
     return {};
   }
 
  private:
   static constexpr long kMostOnASide = 1'000'000;
+  static constexpr std::uintmax_t kMostWhiteSpace = 4;  ///< [bytes]
 
   [[nodiscard]] tl::unexpected<Error> fault(const std::string& what) const {
     return fail(name_ + ":" + std::to_string(line_) + ": " + what);
@@ -77,6 +84,28 @@ class PgmImage final : public MapImage {
     ++at_;
     if (c == '\n' || (c == '\r' && file_.peek() != '\n')) ++line_;
     return c;
+  }
+  /// Some programs end the header with more than one white space, as Windows' line ends do. That they are no pixels
+  /// shows in the file's size, if nothing stands behind the pixels.
+  void pass_white_space(std::uintmax_t most) {
+    if (most > kMostWhiteSpace) return;
+    const auto here = file_.tellg();
+    std::uintmax_t count = 0;
+    for (; count < most && std::isspace(file_.peek()) != 0; ++count) take();
+    file_.clear();
+    const bool is_header = count == most && !ends_in_white_space();
+    if (count == most && !is_header)
+      note_ = "its header may end in more than one white space: if all is shifted by a pixel, save it anew";
+    if (is_header) return;
+    file_.seekg(here);
+    at_ -= count;
+  }
+  [[nodiscard]] bool ends_in_white_space() {
+    const auto here = file_.tellg();
+    file_.seekg(-1, std::ios::end);
+    const bool is_space = std::isspace(file_.peek()) != 0;
+    file_.seekg(here);
+    return is_space;
   }
   /// The next number, behind white space and comments; a comment ends with its line.
   bool read_number(long& number) {
@@ -98,7 +127,7 @@ class PgmImage final : public MapImage {
   std::ifstream file_;
   const std::string name_;
   std::uintmax_t bytes_ = 0, at_ = 0;
-  long line_ = 1;
+  long line_ = 1, rows_ = 0;  ///< rows_: that were read
   bool is_text_ = false;
   std::size_t sample_ = 1;  ///< [bytes]
   std::string row_;

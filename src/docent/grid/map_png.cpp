@@ -1,5 +1,6 @@
 #include <png.h>
 
+#include <array>
 #include <csetjmp>
 #include <cstdio>
 #include <string>
@@ -42,6 +43,14 @@ class PngImage final : public MapImage {
   Result<void> read_row(std::vector<std::uint32_t>& shades) override {
     if (rows_.empty() && !read_next()) return fail(name_ + ":1: damaged PNG image: " + message_);
     const unsigned char* from = rows_.empty() ? row_.data() : rows_[static_cast<std::size_t>(next_++)];
+    shades.resize(static_cast<std::size_t>(width_));
+    if (is_by_palette_) {
+      for (auto& shade : shades) {
+        if (*from >= colours_) return fail(name_ + ":1: damaged PNG image: a colour that its palette has not");
+        shade = palette_[*from++];
+      }
+      return {};
+    }
     const std::size_t width = depth_ == 16 ? 2 : 1;
     const int colours = channels_ >= 3 ? 3 : 1;
     const bool has_alpha = channels_ == 2 || channels_ == 4;
@@ -51,7 +60,6 @@ class PngImage final : public MapImage {
       from += width;
       return value;
     };
-    shades.resize(static_cast<std::size_t>(width_));
     for (auto& shade : shades) {
       shade = 0;
       for (int i = 0; i < colours; ++i) shade += sample();
@@ -66,7 +74,11 @@ class PngImage final : public MapImage {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_init_io(png_, file_);
     png_read_info(png_, info_);
-    png_set_expand(png_);  // palettes to colours, 1 to 4 bits to 8, a clear colour to alpha
+    is_by_palette_ = png_get_color_type(png_, info_) == PNG_COLOR_TYPE_PALETTE;
+    if (is_by_palette_)
+      png_set_packing(png_);  // 1 to 4 bits to 8
+    else
+      png_set_expand(png_);  // 1 to 4 bits to 8 and to full white, a clear colour to alpha
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     width_ = static_cast<long>(png_get_image_width(png_, info_));
@@ -74,7 +86,16 @@ class PngImage final : public MapImage {
     depth_ = png_get_bit_depth(png_, info_);
     channels_ = png_get_channels(png_, info_);
     bytes_of_row_ = png_get_rowbytes(png_, info_);
-    white_ = (depth_ == 16 ? 65535U : 255U) * (channels_ >= 3 ? 3U : 1U);
+    white_ = (depth_ == 16 ? 65535U : 255U) * (channels_ >= 3 || is_by_palette_ ? 3U : 1U);
+    png_colorp colours = nullptr;
+    png_bytep alphas = nullptr;
+    int count = 0, clear = 0;
+    if (is_by_palette_) png_get_PLTE(png_, info_, &colours, &count);
+    if (is_by_palette_ && png_get_tRNS(png_, info_, &alphas, &clear, nullptr) == 0) clear = 0;
+    for (int i = 0; i < count; ++i)
+      palette_[static_cast<std::size_t>(i)] =
+          i < clear && alphas[i] < 128 ? kClear : colours[i].red + std::uint32_t{colours[i].green} + colours[i].blue;
+    colours_ = static_cast<std::size_t>(count);
     return true;
   }
   bool read_next() {
@@ -101,6 +122,9 @@ class PngImage final : public MapImage {
   std::vector<unsigned char> row_, whole_;  // whole_: of an interlaced image
   std::vector<png_bytep> rows_;
   long next_ = 0;
+  bool is_by_palette_ = false;
+  std::array<std::uint32_t, 256> palette_{};  ///< shades
+  std::size_t colours_ = 0;                   ///< so many of them
   std::string message_;
 };
 

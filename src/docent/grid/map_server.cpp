@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <numbers>
+#include <set>
 
 #include "docent/base/files.h"
+#include "docent/base/text.h"
 #include "docent/base/yaml.h"
 #include "docent/grid/map_image.h"
 #include "docent/grid/occupancy_grid.h"
@@ -21,6 +23,7 @@ namespace docent {
 namespace {
 
 constexpr double kSaversUnknown = 205.0 / 255.0;  ///< of white
+constexpr double kNearSaversUnknown = 0.005;      ///< of white
 constexpr std::size_t kLarge = 25'000'000;        ///< [cells]: of a larger map only what is known is kept
 constexpr std::size_t kMost = 400'000'000;        ///< [cells]
 constexpr int kRim = 20;                          ///< [cells] of what is unknown round what is kept
@@ -45,9 +48,14 @@ struct MapYaml {
   }
 };
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
+/// A key that stands twice says two things, and each reader of YAML takes another one.
+Result<void> keys_stand_once(const YamlFile& file) {
+  std::set<std::string> keys;
+  if (!file.root().IsMap()) return {};
+  for (const auto& entry : file.root())
+    if (entry.first.IsScalar() && !keys.insert(entry.first.Scalar()).second)
+      return tl::unexpected<Error>(file.fault(entry.first, "key '" + entry.first.Scalar() + "' stands here twice"));
+  return {};
 }
 
 /// What is said by the file, in the terms of this program.
@@ -98,9 +106,12 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
   if (!yaw) return fault("origin", yaw.error().message);
   meaning.origin.theta = Angle::radians(*yaw);
   const std::string negate = lower_case(yaml.negate);
-  if (negate != "0" && negate != "1" && negate != "false" && negate != "true")
+  const auto is_one_of = [&](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* word) { return negate == word; });
+  };
+  meaning.is_negated = is_one_of({"1", "true", "yes", "on", "y"});  // YAML 1.1's words for it
+  if (!meaning.is_negated && !is_one_of({"0", "false", "no", "off", "n"}))
     return fault("negate", "negate must be 0 or 1");
-  meaning.is_negated = negate == "1" || negate == "true";
   if (!(0.0 <= yaml.free_thresh && yaml.free_thresh < yaml.occupied_thresh && yaml.occupied_thresh <= 1.0)) {
     return fault("occupied_thresh", "thresholds must hold 0 <= free_thresh < occupied_thresh <= 1");
   }
@@ -112,7 +123,8 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
 /// What each shade from 0 to `white` says by the file's mode.
 std::vector<std::int8_t> cells_of_shades(const Meaning& meaning, std::uint32_t white) {
   std::vector<std::int8_t> cells(white + std::size_t{1});
-  const double step = std::max(0.5 / 255.0, 0.5 / white);
+  // Of a coarser white the shade that it is rounded to, if that is near enough to be it.
+  const double step = std::clamp(0.5 / white, 0.5 / 255.0, kNearSaversUnknown);
   for (std::uint32_t value = 0; value <= white; ++value) {
     const double shade = static_cast<double>(value) / white;
     const double occupied = meaning.is_negated ? shade : 1.0 - shade;
@@ -233,6 +245,7 @@ Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) {
   if (!file) return tl::unexpected<Error>(file.error());
   LoadedMap loaded;
   MapYaml yaml;
+  if (auto once = keys_stand_once(*file); !once) return tl::unexpected<Error>(once.error());
   const auto unknown = read_yaml_leniently(*file, file->root(), yaml);
   if (!unknown) return tl::unexpected<Error>(unknown.error());
   for (const std::string& key : *unknown) loaded.notes.push_back("key '" + key + "' is not known here, and left out");
@@ -243,13 +256,13 @@ Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) {
   if (!image && !std::filesystem::is_regular_file(image_path))
     return tl::unexpected<Error>(file->fault(file->root()["image"], "image " + image.error().message));
   if (!image) return tl::unexpected<Error>(image.error());
-  if (!(*image)->note().empty()) loaded.notes.push_back((*image)->note());
   const auto in_image = [&](const Error& error) {
     const bool is_named = error.message.starts_with(image_path.string());
     return tl::unexpected<Error>(is_named ? error : Error{image_path.string() + ":1: " + error.message});
   };
   const auto rows = read_rows(**image, *meaning);
   if (!rows) return in_image(rows.error());
+  if (!(*image)->note().empty()) loaded.notes.push_back((*image)->note());
   auto map = grid_of(**image, *rows, *meaning, loaded.notes);
   if (!map) return in_image(map.error());
   loaded.map = std::move(*map);

@@ -203,5 +203,47 @@ TEST_F(Maps, OfAHugeMapWhatIsKnownIsKept) {
   EXPECT_EQ(at(100, 100), -1);
 }
 
+TEST_F(Maps, HeadersThatEndInMoreThanOneWhiteSpaceShiftNothing) {
+  write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+  const std::string pixels{'\0', '\xfe', '\xcd', '\xfe'};
+  for (const std::string end : {"\n", " ", "\r\n", " \n", "\t\r\n", "\n\n"}) {
+    write("m.pgm", "P5 2 2\n255" + end + pixels);
+    const auto read = read_map(folder_ / "m.yaml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->map.cells, (std::vector<std::int8_t>{-1, 0, 100, 0})) << end.size();
+    EXPECT_TRUE(read->notes.empty());
+  }
+  write("m.pgm", "P5 2 2\n255\n\n\xfe\xfe\xfe\n");  // a dark pixel, and a line end behind the pixels
+  const auto either = read_map(folder_ / "m.yaml");
+  EXPECT_EQ(either->map.cells, (std::vector<std::int8_t>{0, 0, 100, 0}));
+  EXPECT_EQ(either->notes.size(), 1U);
+}
+
+TEST_F(Maps, MorePixelsThanTheHeaderSaysAndShadesAboveItsWhiteAreSaid) {
+  write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+  write("m.pgm", "P2 2 1 255\n0 254\n7 7\n");
+  const auto longer = read_map(folder_ / "m.yaml");
+  ASSERT_TRUE(longer) << longer.error().message;
+  ASSERT_EQ(longer->notes.size(), 1U);
+  EXPECT_NE(longer->notes[0].find("more pixels"), std::string::npos);
+  write("m.pgm", "P5 2 1 100\n\x32\x65");
+  EXPECT_NE(read_map(folder_ / "m.yaml").error().message.find("101 where white is 100"), std::string::npos);
+}
+
+TEST_F(Maps, AKeyThatStandsTwiceIsRefusedAndNegateIsReadInAllWordsOfYaml) {
+  write("m.pgm", "P5 2 1 255\n\xfe\xfe");
+  const std::string plain = "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n";
+  EXPECT_EQ(fault_of(plain + "resolution: 0.1\n"), "m.yaml:4: key 'resolution' stands here twice");
+  for (const std::string word : {"yes", "On", "TRUE", "1"}) {
+    write("m.yaml", plain + "negate: " + word + "\n");
+    EXPECT_EQ(read_map(folder_ / "m.yaml")->map.at({0, 0}), OccupancyGrid::kOccupied) << word;
+  }
+  for (const std::string word : {"no", "Off", "False", "0"}) {
+    write("m.yaml", plain + "negate: " + word + "\n");
+    EXPECT_EQ(read_map(folder_ / "m.yaml")->map.at({0, 0}), OccupancyGrid::kFree) << word;
+  }
+  EXPECT_NE(fault_of(plain + "negate: maybe\n"), "");
+}
+
 }  // namespace
 }  // namespace docent

@@ -1,8 +1,8 @@
 #include "docent/recording/laser_log.h"
 
-#include <fstream>
 #include <string>
 
+#include "docent/base/text.h"
 #include "docent/recording/carmen_log.h"
 #include "docent/recording/recorded_ranges.h"
 #include "docent/recording/ros_laser_log.h"
@@ -38,19 +38,14 @@ Result<LaserLog> read_text_log(const fs::path& path) {
   return log;
 }
 
-bool begins_with(const fs::path& path, std::string_view bytes) {
-  std::string head(bytes.size(), '\0');
-  std::ifstream file{path, std::ios::binary};
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return file.gcount() == static_cast<std::streamsize>(bytes.size()) && head == bytes;
-}
-
 }  // namespace
 
 Result<LaserLog> read_laser_log(const fs::path& path, const LaserLogOptions& options) {
   if (is_bag(path)) return read_ros_log(path, options);
   if (begins_with(path, "SQLite format 3"))
     return fail(path.string() + ": a database; the name of a rosbag2 database ends in .db3");
+  if (options.times == LogTimes::index)
+    return fail(path.string() + ": times by index are for recordings of ROS; this is none");
   if (!options.topics.scans.empty() || !options.topics.odometry.empty() || !options.topics.robot.empty())
     return fail(path.string() + ": topics and robots are chosen of recordings of ROS; this is none");
   return read_text_log(path);

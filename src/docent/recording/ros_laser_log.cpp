@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
+#include "docent/base/text.h"
 #include "docent/messages/cdr.h"
 #include "docent/messages/conversions.h"
 #include "docent/recording/log_odometry.h"
@@ -13,7 +15,11 @@
 namespace docent::recording {
 namespace {
 
-constexpr Duration kApart = std::chrono::seconds{1};  ///< clocks; less may be the time that a message takes
+constexpr Duration kStep = std::chrono::milliseconds{20};  ///< from message to message, where their order is all
+constexpr double kTilt = 0.15;                             ///< [rad] from here on a scanner's plane is not the floor's
+constexpr double kStill = 1e-3;                            ///< [m, rad]
+constexpr double kLeastWay = 1.0;                          ///< [m] by speeds
+constexpr Duration kApart = std::chrono::seconds{1};       ///< clocks; less may be the time that a message takes
 
 /// The same scan with its beams in the order of rising bearings, and with a reach: drivers that know none say infinity.
 sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
@@ -26,11 +32,6 @@ sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
   return scan;
 }
 
-RecordedStamp stamp_of(const std_msgs::Header& header, Time recorded) {
-  const Time stamp = from_message(header.stamp);
-  return {stamp.nanoseconds == 0 ? recorded : stamp, recorded};
-}
-
 /// Of the stamps' clock before that of the file, in the median.
 Duration ahead_of(const std::vector<Time>& times, const std::vector<RecordedStamp>& stamps) {
   if (times.empty()) return {};
@@ -41,13 +42,52 @@ Duration ahead_of(const std::vector<Time>& times, const std::vector<RecordedStam
   return *middle;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
+bool is_same(const LoggedOdometry& a, const LoggedOdometry& b) {
+  const Pose2 &x = a.odom_from_base, &y = b.odom_from_base;
+  return x.x == y.x && x.y == y.y && x.theta.radians() == y.theta.radians();
+}
+bool is_same(const sensor_msgs::LaserScan& a, const sensor_msgs::LaserScan& b) {
+  const auto is_one = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  return std::equal(a.ranges.begin(), a.ranges.end(), b.ranges.begin(), b.ranges.end(), is_one);
+}
+
+/// [m] that the speeds of these readings come to.
+double way_by_speeds(const std::vector<LoggedOdometry>& readings) {
+  double way = 0.0;
+  for (std::size_t i = 1; i < readings.size(); ++i)
+    way += std::abs(readings[i].linear) * std::clamp(to_seconds(readings[i].time - readings[i - 1].time), 0.0, 1.0);
+  return way;
 }
 
 }  // namespace
+
+RecordedStamp RosLaserLogBuilder::stamp_of(const std_msgs::Header& header, Time recorded) const {
+  const Time stamp = from_message(header.stamp);
+  return {stamp.nanoseconds == 0 || options_.times == LogTimes::index ? recorded : stamp, recorded};
+}
+
+std::string RosLaserLogBuilder::robot_of(const std::string& topic, const geometry_msgs::TransformStamped& transform) {
+  const std::string prefix = prefix_of(transform.child_frame_id);
+  return name_space_of(topic) + (prefix.empty() ? "" : "/") + prefix;
+}
+
+template <class T>
+void RosLaserLogBuilder::put_in_order(const std::string& topic, std::vector<T>& messages) {
+  const auto content = [](const T& message) -> const auto& {
+    if constexpr (requires { message.reading; })
+      return message.reading;
+    else
+      return message.message;
+  };
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const T& a, const T& b) { return a.stamp.recorded < b.stamp.recorded; });
+  const auto again = std::unique(messages.begin(), messages.end(), [&](const T& a, const T& b) {
+    return a.stamp.recorded == b.stamp.recorded && a.stamp.stamp == b.stamp.stamp && is_same(content(a), content(b));
+  });
+  if (const auto count = std::distance(again, messages.end()); count > 0)
+    log_.notes.push_back(std::to_string(count) + " messages of " + topic + " are in it twice: each is read once");
+  messages.erase(again, messages.end());
+}
 
 void RosLaserLogBuilder::refuse(const std::string& topic, const std::string& why) {
   Refused& refused = refused_[topic];
@@ -68,16 +108,19 @@ void RosLaserLogBuilder::add(const Rosbag2Message& message) {
                          (options_.with_sonars && message.type == sensor_msgs::Range::kType);
   // Docent's virtual measurements come from the map, not from a sensor.
   if (!is_wanted || message.topic.starts_with("/docent/")) return;
-  if (std::abs(to_seconds(message.time)) > kLastSecond)
+  Rosbag2Message timed = message;
+  if (options_.times == LogTimes::index)
+    timed.time = Time{} + count_++ * kStep;
+  else if (std::abs(to_seconds(message.time)) > kLastSecond)
     return refuse(message.topic, "the time in the file lies beyond the year 2106");
   if (message.type == sensor_msgs::LaserScan::kType) {
-    add_as<sensor_msgs::LaserScan>(message, &RosLaserLogBuilder::take_scan);
+    add_as<sensor_msgs::LaserScan>(timed, &RosLaserLogBuilder::take_scan);
   } else if (message.type == sensor_msgs::Range::kType) {
-    add_as<sensor_msgs::Range>(message, &RosLaserLogBuilder::take_ping);
+    add_as<sensor_msgs::Range>(timed, &RosLaserLogBuilder::take_ping);
   } else if (message.type == nav_msgs::Odometry::kType) {
-    add_as<nav_msgs::Odometry>(message, &RosLaserLogBuilder::take_odometry);
+    add_as<nav_msgs::Odometry>(timed, &RosLaserLogBuilder::take_odometry);
   } else {
-    add_as<tf2_msgs::TFMessage>(message, &RosLaserLogBuilder::take_transforms);
+    add_as<tf2_msgs::TFMessage>(timed, &RosLaserLogBuilder::take_transforms);
   }
 }
 
@@ -100,6 +143,7 @@ void RosLaserLogBuilder::take_odometry(const std::string& topic, nav_msgs::Odome
   reading.linear = message.twist.twist.linear.x;
   reading.angular = message.twist.twist.angular.z;
   OdometryTopic& of = odometry_[topic];
+  of.topic = topic;
   of.readings.push_back({stamp_of(message.header, recorded), reading});
   of.parent = plain_frame(message.header.frame_id);
   of.child = plain_frame(message.child_frame_id);
@@ -118,7 +162,13 @@ void RosLaserLogBuilder::take_transforms(const std::string& topic, tf2_msgs::TFM
       LoggedOdometry reading;
       const auto& place = transform.transform.translation;
       reading.odom_from_base = from_message(geometry_msgs::Pose{{place.x, place.y, 0.0}, transform.transform.rotation});
-      OdometryTopic& of = tf_odometry_[name_space_of(topic)];
+      OdometryTopic& of = tf_odometry_[robot_of(topic, transform)];
+      const std::string child = plain_frame(transform.child_frame_id);
+      if (!of.readings.empty() && child != of.child) {  // two frames of one robot
+        if (!is_base(child) || is_base(of.child)) continue;
+        of.readings.clear();
+      }
+      of.topic = topic;
       of.readings.push_back({stamp_of(transform.header, recorded), reading});
       of.parent = plain_frame(transform.header.frame_id);
       of.child = plain_frame(transform.child_frame_id);
@@ -182,34 +232,61 @@ std::vector<Time> RosLaserLogBuilder::followed(const std::string& name, const st
   return std::move(mended.times);
 }
 
-const FrameTree& RosLaserLogBuilder::frames_of(const std::string& topic) const {
-  static const FrameTree kNone;
-  for (std::string around = name_space_of(topic); !around.empty(); around = name_space_of(around))
-    if (const auto frames = frames_.find(around); frames != frames_.end()) return frames->second;
-  const auto all = frames_.find("");
-  return all == frames_.end() ? kNone : all->second;
+FrameTree RosLaserLogBuilder::frames_of(const std::string& topic) const {
+  FrameTree all;
+  bool has_robot = false;
+  for (std::string around = name_space_of(topic);; around = name_space_of(around)) {
+    const bool is_robot = std::any_of(odometry_.begin(), odometry_.end(),
+                                      [&](const auto& of) { return name_space_of(of.first) == around; });
+    // What another robot says of its own frames, which may have the same names, is none of this one's.
+    const auto frames = frames_.find(around);
+    if (frames != frames_.end() && !(has_robot && is_robot)) all.add(frames->second);
+    has_robot = has_robot || is_robot;
+    if (around.empty()) return all;
+  }
+}
+
+std::vector<std::string> RosLaserLogBuilder::bases() const {
+  std::vector<std::string> all;
+  for (const auto* const topics : {&odometry_, &tf_odometry_})
+    for (const auto& [name, of] : *topics) all.push_back(of.child);
+  return all;
+}
+
+void RosLaserLogBuilder::say_of_mount(const std::string& frame, const std::optional<Mount>& mount) {
+  const std::string name = "the laser '" + frame + "' ";
+  if (!mount)
+    log_.notes.push_back("the place of the laser '" + frame + "' is unknown: the robot's centre is taken");
+  else if (mount->moves)
+    log_.notes.push_back(name + "moves on the robot: it is taken to be where it is in the end");
+  else if (mount->tilt > kTilt)
+    log_.notes.push_back(name + "is tilted by " + std::to_string(std::lround(mount->tilt * 180.0 / std::numbers::pi)) +
+                         " degrees: its readings are taken to be level");
 }
 
 Result<void> RosLaserLogBuilder::choose() {
   RecordedTopics recorded;
-  std::string any_base;
-  for (const auto& [topic, of] : odometry_) {
-    recorded.odometry[topic] = {of.readings.size(), of.parent};
-    any_base = of.child;
-  }
+  for (const auto& [topic, of] : odometry_) recorded.odometry[topic] = {of.readings.size(), of.parent, of.child};
   for (const auto& [name_space, of] : tf_odometry_) recorded.transforms[name_space] = of.readings.size();
   for (const auto& [topic, scans] : scans_) {
     const std::string& frame = scans.front().message.header.frame_id;
-    recorded.scans[topic] = {scans.size(), frame, frames_of(topic).mount_of(frame, any_base).has_value()};
+    const FrameTree frames = frames_of(topic);
+    const std::vector<std::string> all = bases();
+    const bool has_place =
+        std::any_of(all.begin(), all.end(),
+                    [&](const std::string& base) { return frames.mount_of(frame, base).has_value(); }) ||
+        frames.mount_of(frame, "").has_value();
+    recorded.scans[topic] = {scans.size(), frame, has_place};
   }
   auto chosen = choose_topics(recorded, options_.topics);
   if (!chosen) return tl::unexpected<Error>(chosen.error());
   chosen_ = std::move(*chosen);
   log_.notes.insert(log_.notes.end(), chosen_.notes.begin(), chosen_.notes.end());
-  log_.sources = "scans of " + listed(chosen_.scans) +
-                 (!chosen_.odometry.empty()  ? ", odometry of " + chosen_.odometry
-                  : chosen_.is_by_transforms ? ", odometry of the transforms of " + chosen_.transforms + "/tf"
-                                             : ", no odometry");
+  log_.sources =
+      "scans of " + listed(chosen_.scans) +
+      (!chosen_.odometry.empty()  ? ", odometry of " + chosen_.odometry
+       : chosen_.is_by_transforms ? ", odometry of the transforms of " + tf_odometry_[chosen_.transforms].topic
+                                  : ", no odometry");
   return {};
 }
 
@@ -221,7 +298,8 @@ void RosLaserLogBuilder::use_odometry() {
   if (of.readings.empty())
     log_.notes.emplace_back("there is no odometry: the robot is taken to stand still between scans");
   base_frame_ = of.child;
-  const std::string name = chosen_.odometry.empty() ? chosen_.transforms + "/tf" : chosen_.odometry;
+  const std::string& name = of.topic;
+  put_in_order(name, of.readings);
   std::vector<RecordedStamp> stamps;
   for (const Odometry& one : of.readings) stamps.push_back(one.stamp);
   const std::vector<Time> times = followed(name, stamps);
@@ -230,13 +308,20 @@ void RosLaserLogBuilder::use_odometry() {
     of.readings[i].reading.time = times[i];
     log_.odometry.push_back(of.readings[i].reading);
   }
+  const auto stands = [&](const LoggedOdometry& reading) {
+    const Pose2 &pose = reading.odom_from_base, &first = log_.odometry.front().odom_from_base;
+    return distance(pose.position(), first.position()) < kStill &&
+           std::abs((pose.theta - first.theta).radians()) < kStill;
+  };
+  if (std::all_of(log_.odometry.begin(), log_.odometry.end(), stands) && way_by_speeds(log_.odometry) > kLeastWay)
+    log_.notes.push_back("the odometry of " + name + " says speeds, but its place stands: so does the robot here");
   take_out_jumps();
   std::stable_sort(log_.odometry.begin(), log_.odometry.end(),
                    [](const LoggedOdometry& a, const LoggedOdometry& b) { return a.time < b.time; });
 }
 
 void RosLaserLogBuilder::take_out_jumps() {
-  LogOdometry unbroken;
+  LogOdometry unbroken{options_.times != LogTimes::index};
   std::vector<LoggedOdometry> kept;
   kept.reserve(log_.odometry.size());
   for (LoggedOdometry& reading : log_.odometry) {
@@ -251,6 +336,7 @@ void RosLaserLogBuilder::take_out_jumps() {
 
 void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
   std::vector<Scan>& scans = scans_[topic];
+  put_in_order(topic, scans);
   std::vector<RecordedStamp> stamps;
   for (const Scan& one : scans) stamps.push_back(one.stamp);
   std::vector<Time> times = followed("the scans of " + topic, stamps);
@@ -263,7 +349,7 @@ void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
   }
   const std::string frame = scans.front().message.header.frame_id;
   const auto mount = frames_of(topic).mount_of(frame, base_frame_);
-  if (!mount) log_.notes.push_back("the place of the laser '" + frame + "' is unknown: the robot's centre is taken");
+  say_of_mount(frame, mount);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const sensor_msgs::LaserScan& message = scans[i].message;
     const auto range_max = static_cast<double>(message.range_max);
@@ -303,6 +389,10 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
     return fail(refused.empty() ? "holds no laser scan" : "holds no laser scan that is fit; refused: " + refused);
   if (!refused.empty()) log_.notes.push_back("messages that cannot be were left out: " + refused);
   if (auto chosen = choose(); !chosen) return tl::unexpected<Error>(chosen.error());
+  if (options_.times == LogTimes::index) {
+    log_.times_are_invented = true;
+    log_.notes.emplace_back("times go by the order of the messages alone, 0.02 s from one to the next");
+  }
   use_odometry();
   for (const std::string& topic : chosen_.scans) use_scans(topic, odometry_ahead_);
   if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());

@@ -8,6 +8,7 @@
 
 #include "docent/apps/golog/golog_trace.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/apps/shared/tour_check.h"
 #include "docent/base/files.h"
 #include "docent/base/suggestion.h"
@@ -52,7 +53,7 @@ std::vector<task_control::GologTerm> requests_of(const Options& options, const m
 }
 
 void check(const Options& options) {
-  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  const museum::Museum museum = load_museum_and_say(options.museum);
   const auto file = file_of(options);
   const TourFindings found = check_tour(file, museum);
   for (const std::string& note : found.notes) std::printf("%s\n", note.c_str());
@@ -67,7 +68,7 @@ void check(const Options& options) {
 }
 
 void plan(const Options& options) {
-  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  const museum::Museum museum = load_museum_and_say(options.museum);
   task_control::GologProgram program = program_of(options, museum);
   const Point2 home{museum.home.x, museum.home.y};
   const auto requests = requests_of(options, museum);
@@ -83,7 +84,7 @@ void plan(const Options& options) {
 }
 
 void trace(const Options& options) {
-  const museum::Museum museum = value_or_fail(museum::load_museum(options.museum));
+  const museum::Museum museum = load_museum_and_say(options.museum);
   std::vector<TraceEvent> events;
   for (const task_control::GologTerm& request : requests_of(options, museum)) {
     events.push_back({0.0, TraceEvent::Kind::event, request});

@@ -45,6 +45,11 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
                   "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database, or bag of ROS 1")
       ->required();
   add_topic_options(command, choice.topics);
+  command
+      .add_option("--times", choice.times,
+                  "of a recording of ROS: stamps, or index: the order of its messages, where its clocks are of no use")
+      ->check(CLI::IsMember({"stamps", "index"}))
+      ->capture_default_str();
   command.add_option("--reference", choice.reference,
                      "where the robot truly was: a file of \"time x y theta\" [s, m, rad], or logged: the log is a "
                      "corrected one and holds the poses itself");
@@ -54,7 +59,9 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
 }
 
 ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps) {
-  ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log, {.topics = choice.topics})), {}};
+  const auto times = choice.times == "index" ? recording::LogTimes::index : recording::LogTimes::stamps;
+  const recording::LaserLogOptions options{.topics = choice.topics, .times = times};
+  ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log, options)), {}};
   const recording::LaserLog& log = referenced.log;
   if (!log.sources.empty()) std::fprintf(stderr, "note: %s is read as %s\n", choice.log.c_str(), log.sources.c_str());
   for (std::string& lie : lies_in(log)) referenced.log.notes.push_back(std::move(lie));

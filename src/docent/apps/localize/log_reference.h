@@ -19,6 +19,7 @@ struct LogChoice {
   std::string reference;           ///< "" none, "logged" the poses in the log itself, else a file of poses
   std::string scans = "all";       ///< all, odd, even: the first scan of the log is odd
   recording::WantedTopics topics;  ///< of a recording of ROS
+  std::string times = "stamps";    ///< likewise: stamps, index
 };
 /// The options that choose among the topics of a recording of ROS; without `has_robot` that of a robot is not among
 /// them.

@@ -21,4 +21,14 @@ OccupancyGrid load_and_say(const std::string& path) {
   return std::move(loaded.map);
 }
 
+void say_map(const museum::Museum& museum) {
+  if (!museum.map.cells.empty()) say_classes(museum.map_path.string(), museum.map, museum.map_notes);
+}
+
+museum::Museum load_museum_and_say(const std::string& folder) {
+  museum::Museum museum = value_or_fail(museum::load_museum(folder));
+  say_map(museum);
+  return museum;
+}
+
 }  // namespace docent::apps

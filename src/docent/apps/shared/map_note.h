@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "docent/grid/occupancy_grid.h"
+#include "docent/museum/museum.h"
 
 namespace docent::apps {
 
@@ -12,5 +13,9 @@ namespace docent::apps {
 void say_classes(const std::string& path, const OccupancyGrid& map, const std::vector<std::string>& notes);
 /// The map of that file, and says so. CommandFailed where it cannot be read.
 [[nodiscard]] OccupancyGrid load_and_say(const std::string& path);
+/// The same of a museum's map; a museum without one, as before it is explored, has nothing to say.
+void say_map(const museum::Museum& museum);
+/// The museum of that folder, and says what its map was taken for. CommandFailed where it cannot be read.
+museum::Museum load_museum_and_say(const std::string& folder);
 
 }  // namespace docent::apps

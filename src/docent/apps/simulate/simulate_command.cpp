@@ -13,6 +13,7 @@
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/apps/simulate/progress.h"
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
@@ -94,6 +95,7 @@ void simulate(Options& options) {
     if (options.pace == 0.0) options.pace = 1.0;
   }
   prepare_cache(options.run.cache);
+  if (!options.quiet && !options.run.explore) load_museum_and_say(options.run.museum);
   const auto run = value_or_fail(SimulationRun::create(options.run));
   const Time end = time_from_seconds(options.hours * 3600.0);
   const auto wall_start = std::chrono::steady_clock::now();

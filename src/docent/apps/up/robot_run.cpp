@@ -18,6 +18,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/status_display.h"
 #include "docent/apps/up/supervisor.h"
@@ -98,6 +99,7 @@ docent_msgs::Limits check(const RobotRun& options) {
   docent_msgs::Limits limits = value_or_fail(limits_of(options, museum, config));
   value_or_fail(check_port(options.port));
   value_or_fail(own_state(options.deployment));
+  if (!options.deployment.is_exploring()) say_map(museum);
   return limits;
 }
 

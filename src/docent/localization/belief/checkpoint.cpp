@@ -5,8 +5,8 @@
 #include <span>
 
 #include "docent/base/files.h"
+#include "docent/base/text.h"
 #include "docent/base/yaml.h"
-#include "docent/base/yaml_list.h"
 
 namespace docent::localization {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "docent/base/files.h"
+#include "docent/base/text.h"
 #include "docent/base/yaml.h"
-#include "docent/base/yaml_list.h"
 
 namespace docent::mapping {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <string_view>
 
+#include "docent/base/text.h"
 #include "docent/recording/mcap/format.h"
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/rosbag/bag_metadata.h"
@@ -19,27 +19,32 @@ namespace {
 namespace fs = std::filesystem;
 using Handler = std::function<bool(const Rosbag2Message&)>;
 
-bool begins_with(const fs::path& path, std::string_view bytes) {
-  std::string head(bytes.size(), '\0');
-  std::ifstream file{path, std::ios::binary};
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return file.gcount() == static_cast<std::streamsize>(bytes.size()) && head == bytes;
-}
 bool is_mcap(const fs::path& path) {
   return begins_with(path, {reinterpret_cast<const char*>(mcap::kMagic.data()), mcap::kMagic.size()});
 }
+/// "#ROSRECORD V1.2" is the name of older ones.
+bool is_ros1_bag(const fs::path& path) { return begins_with(path, "#ROSBAG V") || begins_with(path, "#ROSRECORD V"); }
 bool is_database(const fs::path& path) { return begins_with(path, "SQLite format 3"); }
+
+/// What was packed message by message, unpacked into `room`; nothing, where it is damaged.
+std::span<const std::uint8_t> plain(std::span<const std::uint8_t> data, std::vector<std::uint8_t>& room) {
+  if (!is_zstd(data)) return data;
+  auto whole = unpack_zstd(data);
+  room = whole ? std::move(*whole) : std::vector<std::uint8_t>{};
+  return room;
+}
 
 Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector<std::string>& notes) {
   auto reader = McapReader::open(path);
   if (!reader) return tl::unexpected<Error>(reader.error());
   std::map<std::string, std::string> foreign;  // topic, encoding
+  std::vector<std::uint8_t> unpacked;
   McapReader::Selection all;
   all.skip_damaged = true;
   const auto read = reader->read(all, [&](const McapMessage& message) {
     const McapChannel& channel = message.channel;
     if (channel.encoding == "cdr" || channel.encoding.empty())
-      return handler({channel.topic, channel.type, message.log_time, message.data});
+      return handler({channel.topic, channel.type, message.log_time, plain(message.data, unpacked)});
     const ConvertedMessage converted =
         channel.encoding == "ros1" ? converted_from_ros1(channel.type, message.data) : ConvertedMessage{nullptr, {}};
     if (converted.type == nullptr && channel.encoding != "ros1") foreign[channel.topic] = channel.encoding;
@@ -76,7 +81,7 @@ class Scratch {
 };
 
 Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std::vector<std::string>& notes) {
-  if (begins_with(path, "#ROSBAG V")) return read_ros1_bag(path, handler, notes);
+  if (is_ros1_bag(path)) return read_ros1_bag(path, handler, notes);
   if (begins_with(path, "\x28\xb5\x2f\xfd")) {
     const Scratch scratch;
     if (scratch.path().empty()) return fail(path.string() + ": no folder to unpack it in");
@@ -95,7 +100,7 @@ Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std:
 bool is_bag(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return true;
-  return is_part_of_bag(path) || path.extension() == ".bag" || is_mcap(path) || begins_with(path, "#ROSBAG V") ||
+  return is_part_of_bag(path) || path.extension() == ".bag" || is_mcap(path) || is_ros1_bag(path) ||
          (!fs::exists(path, error) && fs::exists(unfinished_path(path), error));
 }
 

@@ -96,6 +96,18 @@ TEST_F(Bags, BothCompressionsOfRosbag2) {
   EXPECT_EQ(read(folder_ / "b_0.db3.zstd"), numbers(5, 30));
 }
 
+TEST_F(Bags, McapWhoseMessagesArePackedOneByOne) {
+  auto writer = McapWriter::create(folder_ / "b_0.mcap");
+  const auto channel = *writer->add_channel({"/n", "x/msg/N", "ros2msg", "x", "cdr", {}});
+  for (int i = 0; i < 20; ++i) {
+    const std::string data = packed(std::to_string(i) + std::string(200, 'x'));
+    ASSERT_TRUE(
+        writer->write(channel, Time{i}, Time{i}, {reinterpret_cast<const std::uint8_t*>(data.data()), data.size()}));
+  }
+  ASSERT_TRUE(writer->close());
+  EXPECT_EQ(read(folder_), numbers(0, 20));
+}
+
 TEST_F(Bags, PartsInTheOrderOfTheMetadata) {
   write_mcap(folder_ / "late.mcap", 10, 10);
   write_mcap(folder_ / "soon.mcap", 0, 10);
@@ -136,6 +148,11 @@ TEST_F(Bags, WhatIsNoRecordingIsAnError) {
   EXPECT_FALSE(read_bag(folder_ / "a.mcap", nothing, notes_));
   fs::remove(folder_ / "a.mcap");
   EXPECT_FALSE(read_bag(folder_, nothing, notes_));
+  ASSERT_TRUE(write_file_atomically(folder_ / "old.orig", "#ROSRECORD V1.2\nand so on"));
+  EXPECT_TRUE(is_bag(folder_ / "old.orig"));
+  const auto old = read_bag(folder_ / "old.orig", nothing, notes_);
+  ASSERT_FALSE(old);
+  EXPECT_NE(old.error().message.find("rosbag migrate"), std::string::npos) << old.error().message;
   EXPECT_FALSE(is_bag(folder_ / "a.txt"));
   EXPECT_TRUE(is_bag(folder_));
 }

@@ -20,7 +20,7 @@ using mcap::ByteReader;  // lengths of four bytes before what they count, little
 constexpr std::string_view kMagic{"#ROSBAG V2.0\n"};
 constexpr std::uint32_t kMostBytes = 1U << 30U;  ///< of one record
 
-enum Op : std::uint8_t { kMessage = 0x02, kChunk = 0x05, kConnection = 0x07 };
+enum Op : std::uint8_t { kMessage = 0x02, kHead = 0x03, kChunk = 0x05, kConnection = 0x07 };
 
 /// The fields of a record's head: "name=value", by name.
 using Fields = std::map<std::string, std::string>;
@@ -75,7 +75,11 @@ class Ros1Bag {
         notes_.push_back(name_ + ": a broken record; what came before is used");
         break;
       }
-      if (number_of<std::uint8_t>(*fields, "op") == kChunk)
+      const auto op = number_of<std::uint8_t>(*fields, "op");
+      if (const std::string encryptor = text_of(*fields, "encryptor"); op == kHead && !encryptor.empty())
+        return fail(name_ + ": is encrypted by " + encryptor.substr(0, 60) +
+                    ": `rosbag decrypt` makes a plain one of it");
+      if (op == kChunk)
         take_chunk(*fields, data);
       else
         take(*fields, data);

@@ -11,6 +11,10 @@ constexpr std::size_t kStands = 5;                   ///< equal stamps in succes
 constexpr Duration kStandsFor =
     std::chrono::milliseconds{200};  ///< of the file's time from the first to the last of them
 
+constexpr Duration kTwoClocks = std::chrono::milliseconds{500};  ///< of one stamp before the next
+constexpr std::size_t kFewestFalls = 3;
+constexpr double kShareOfFalls = 0.02;  ///< of the messages
+
 Duration size_of(Duration duration) { return duration < Duration{} ? -duration : duration; }
 
 /// Lets stamps that stand go on with the times of the file; how many those are.
@@ -19,9 +23,30 @@ std::size_t let_go_on(std::vector<Time>& times, const std::vector<RecordedStamp>
   for (std::size_t from = 0, to = 0; from < stamps.size(); from = to) {
     for (to = from; to < stamps.size() && stamps[to].stamp == stamps[from].stamp;) ++to;
     if (to - from < kStands || stamps[to - 1].recorded - stamps[from].recorded < kStandsFor) continue;
-    for (std::size_t i = from; i < to; ++i)
-      times[i] = stamps[from].stamp + (stamps[i].recorded - stamps[from].recorded);
+    // The first that stands may be late already: what came before tells how far the clock was.
+    const std::size_t before = from > 0 ? from - 1 : from;
+    const Time right = times[before];
+    for (std::size_t i = from; i < to; ++i) times[i] = right + (stamps[i].recorded - stamps[before].recorded);
     moved += to - from - 1;
+  }
+  return moved;
+}
+
+/// Where stamps go back and forth, which those of one clock do not. How many are moved.
+std::size_t part_two_clocks(std::vector<Time>& times, const std::vector<RecordedStamp>& stamps) {
+  std::size_t falls = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) falls += times[i - 1] - times[i] > kTwoClocks ? 1 : 0;
+  if (falls < kFewestFalls || static_cast<double>(falls) < kShareOfFalls * static_cast<double>(times.size())) return 0;
+  std::vector<Duration> ahead;
+  for (std::size_t i = 0; i < times.size(); ++i) ahead.push_back(times[i] - stamps[i].recorded);
+  std::sort(ahead.begin(), ahead.end());
+  const Duration most = ahead[ahead.size() / 2];
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const Duration off = times[i] - stamps[i].recorded - most;
+    if (size_of(off) <= kTwoClocks) continue;
+    times[i] = stamps[i].recorded + most;
+    ++moved;
   }
   return moved;
 }
@@ -54,6 +79,7 @@ MendedStamps mended_stamps(const std::vector<RecordedStamp>& stamps) {
     mended.times[i] = mended.times[i] + (shift[i] - right);
     mended.mended += shift[i] != right ? 1 : 0;
   }
+  if (const std::size_t moved = part_two_clocks(mended.times, stamps); moved > 0) mended.mended = moved;
   return mended;
 }
 

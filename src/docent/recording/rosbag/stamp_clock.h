@@ -17,8 +17,9 @@ struct RecordedStamp {
 /// 1970 and then asked the network, a clock that jumps, wraps or stands. From one message to the next a stamp goes as
 /// far as the time of the file, but for ten seconds; where it does not, the clock was set, and the stamps of the
 /// shorter stretches are moved to that of the longest. A stamp that stands while messages go on coming goes on with
-/// them. A clock that is slower than the file's, as that of a simulation, stays as it is; times of the file that tell
-/// nothing (all equal) mend nothing. O(n).
+/// them. Stamps that go back and forth are of two clocks: they are those of the file, as far before them as most are. A
+/// clock that is slower than the file's, as that of a simulation, stays as it is; times of the file that tell nothing
+/// (all equal) mend nothing. O(n).
 struct MendedStamps {
   std::vector<Time> times;  ///< [messages]
   std::size_t mended = 0;   ///< so many of them

@@ -62,5 +62,20 @@ TEST(StampClock, TimesOfAFileThatTellNothingMendNothing) {
   EXPECT_EQ(mended_stamps(all).mended, 0U);
 }
 
+TEST(StampClock, StampsThatGoBackAndForthAreOfTwoClocks) {
+  std::vector<RecordedStamp> stamps;
+  for (int i = 0; i < 100; ++i) {
+    const Time recorded = time_from_seconds(1000.0 + 0.1 * i);
+    stamps.push_back({i % 3 == 0 ? recorded + std::chrono::seconds{2} : recorded, recorded});
+  }
+  const MendedStamps mended = mended_stamps(stamps);
+  EXPECT_EQ(mended.mended, 34U);
+  for (std::size_t i = 0; i < stamps.size(); ++i) EXPECT_EQ(mended.times[i], stamps[i].recorded);
+  stamps[50].stamp = stamps[20].stamp;  // one that was late is none of another clock
+  for (RecordedStamp& one : stamps) one.stamp = one.recorded;
+  stamps[50].stamp = stamps[40].stamp;
+  EXPECT_EQ(mended_stamps(stamps).mended, 0U);
+}
+
 }  // namespace
 }  // namespace docent::recording

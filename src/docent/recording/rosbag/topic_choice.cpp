@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <iterator>
 #include <string_view>
 #include <tuple>
 
+#include "docent/base/text.h"
+#include "docent/recording/rosbag/frame_tree.h"
+
 namespace docent::recording {
 namespace {
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 template <std::size_t N>
 bool holds_one_of(const std::string& topic, const std::array<std::string_view, N>& words) {
@@ -24,17 +21,23 @@ bool holds_one_of(const std::string& topic, const std::array<std::string_view, N
 
 /// Where a robot truly is, or is in its map, is not what its wheels say.
 bool is_truth(const std::string& topic, const RecordedTopics::Odometry& odometry) {
-  constexpr std::array<std::string_view, 9> kWords{"ground_truth", "groundtruth", "ground-truth", "truth",    "/gt",
-                                                   "_gt",          "mocap",       "vicon",        "optitrack"};
+  constexpr std::array<std::string_view, 14> kWords{"truth", "/gt",       "_gt",      "mocap", "vicon",
+                                                    "vrpn",  "optitrack", "qualisys", "p3d",   "gazebo",
+                                                    "/sim/", "perfect",   "ideal",    "exact_"};
   const std::string parent = odometry.parent.substr(odometry.parent.rfind('/') + 1);
   return holds_one_of(topic, kWords) || parent == "map" || parent == "world" || parent == "earth";
 }
 /// Made of several sensors, maybe of the very scans that are to be localized.
 bool is_fused(const std::string& topic) {
-  constexpr std::array<std::string_view, 17> kWords{
-      "filtered", "ekf",  "ukf", "fused", "amcl",       "slam", "localiz",    "visual",    "rtabmap",
-      "icp",      "rf2o", "gps", "gnss",  "scan_match", "vins", "laser_odom", "lidar_odom"};
+  constexpr std::array<std::string_view, 28> kWords{
+      "filtered", "ekf",  "ukf",  "fused", "amcl",       "slam",   "localiz",    "visual",     "rtabmap", "icp",
+      "rf2o",     "gps",  "gnss", "gicp",  "scan_match", "vins",   "laser_odom", "lidar_odom", "camera",  "/zed",
+      "vio/",     "_vio", "loam", "kiss",  "lio",        "mapped", "t265",       "orb_"};
   return holds_one_of(topic, kWords);
+}
+/// Against a name that tells nothing.
+bool sounds_like_wheels(const std::string& topic) {
+  return holds_one_of(topic, std::array<std::string_view, 4>{"odom", "wheel", "encoder", "drive"});
 }
 /// Made of other scans.
 bool is_made_of_scans(const std::string& topic) {
@@ -45,22 +48,29 @@ bool is_made_of_scans(const std::string& topic) {
 
 bool lies_in(const std::string& topic, const std::string& name_space) { return topic.starts_with(name_space + "/"); }
 
-/// The innermost name space round the topic that has an odometry of its own; empty: the one of all.
-std::string robot_of(const std::string& topic, const RecordedTopics& recorded) {
+/// "/robot1" for frame "robot1/laser"; empty for one without a prefix.
+std::string robot_of_frame(const std::string& frame) {
+  const std::string prefix = prefix_of(frame);
+  return prefix.empty() ? prefix : "/" + prefix;
+}
+
+/// The innermost name space round the topic that has an odometry of its own; where there is none, the prefix of its
+/// frame, if an odometry has the same; empty: the robot without a name.
+std::string robot_of(const std::string& topic, const std::string& frame, const RecordedTopics& recorded) {
   for (std::string robot = name_space_of(topic); !robot.empty(); robot = name_space_of(robot)) {
     for (const auto& [odometry, about] : recorded.odometry)
       if (lies_in(odometry, robot)) return robot;
     for (const auto& [name_space, count] : recorded.transforms)
       if (name_space == robot || lies_in(name_space, robot)) return robot;
   }
-  return {};
+  const std::string robot = robot_of_frame(frame);
+  const bool is_known =
+      !robot.empty() && (recorded.transforms.contains(robot) ||
+                         std::any_of(recorded.odometry.begin(), recorded.odometry.end(),
+                                     [&](const auto& of) { return robot_of_frame(of.second.child) == robot; }));
+  return is_known ? robot : std::string{};
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
 template <class T>
 std::vector<std::string> names_of(const std::map<std::string, T>& topics) {
   std::vector<std::string> names;
@@ -73,7 +83,7 @@ std::string spoken(const std::string& robot) { return robot.empty() ? "/" : robo
 class Choice {
  public:
   Choice(const RecordedTopics& recorded, const WantedTopics& wanted) : recorded_{recorded}, wanted_{wanted} {
-    for (const auto& [topic, about] : recorded.scans) robots_[robot_of(topic, recorded)].push_back(topic);
+    for (const auto& [topic, about] : recorded.scans) robots_[robot_of(topic, about.frame, recorded)].push_back(topic);
   }
 
   Result<ChosenTopics> run() {
@@ -86,17 +96,19 @@ class Choice {
  private:
   void note(std::string text) { chosen_.notes.push_back(std::move(text)); }
 
-  /// Whether that robot is the innermost one round the topic.
-  [[nodiscard]] bool is_of(const std::string& topic, const std::string& robot) const {
+  /// Whether that robot is the innermost one round the topic or, without any, that of the frame.
+  [[nodiscard]] bool is_of(const std::string& topic, const std::string& frame, const std::string& robot) const {
     for (std::string around = name_space_of(topic); !around.empty(); around = name_space_of(around))
       if (robots_.contains(around)) return around == robot;
-    return robot.empty();
+    const std::string of_frame = robot_of_frame(frame);
+    if (robots_.contains(of_frame)) return of_frame == robot;
+    return robot.empty() || robots_.size() == 1;
   }
   [[nodiscard]] bool has_odometry(const std::string& robot) const {
     return std::any_of(recorded_.odometry.begin(), recorded_.odometry.end(),
-                       [&](const auto& topic) { return is_of(topic.first, robot); }) ||
+                       [&](const auto& topic) { return is_of(topic.first, topic.second.child, robot); }) ||
            std::any_of(recorded_.transforms.begin(), recorded_.transforms.end(),
-                       [&](const auto& tf) { return is_of(tf.first + "/tf", robot); });
+                       [&](const auto& tf) { return is_of(tf.first + "/tf", {}, robot); });
   }
 
   Result<void> choose_robot() {
@@ -107,11 +119,11 @@ class Choice {
       if (!robots_.contains(robot)) {
         std::vector<std::string> all;
         for (const auto& [name, topics] : robots_) all.push_back(spoken(name));
-        return fail("no robot " + spoken(robot) + " has scans in it; there are: " + listed(all));
+        return fail("no robot " + spoken(robot) + " has scans in it; there are: " + listed(all, "none"));
       }
       chosen_.robot = robot;
-    } else if (!wanted_.scans.empty()) {
-      chosen_.robot = robot_of(wanted_.scans.front(), recorded_);
+    } else if (!wanted_.scans.empty() && recorded_.scans.contains(wanted_.scans.front())) {
+      chosen_.robot = robot_of(wanted_.scans.front(), recorded_.scans.at(wanted_.scans.front()).frame, recorded_);
     } else {
       const auto weight = [&](const auto& robot) {
         std::size_t scans = 0;
@@ -127,7 +139,7 @@ class Choice {
       for (const auto& [name, topics] : robots_)
         if (name != chosen_.robot) others.insert(others.end(), topics.begin(), topics.end());
       note("several robots are in it: that of " + spoken(chosen_.robot) + " is used, and left out are the scans of " +
-           listed(others) + "; --robot and --scan choose");
+           listed(others, "none") + "; --robot and --scan choose");
     }
     return {};
   }
@@ -135,7 +147,7 @@ class Choice {
   Result<void> choose_scans() {
     for (const std::string& topic : wanted_.scans)
       if (!recorded_.scans.contains(topic))
-        return fail("holds no scans of " + topic + "; there are those of " + listed(names_of(recorded_.scans)));
+        return fail("holds no scans of " + topic + "; there are those of " + listed(names_of(recorded_.scans), "none"));
     if (!wanted_.scans.empty()) {
       chosen_.scans = wanted_.scans;
       return {};
@@ -176,20 +188,23 @@ class Choice {
     if (!wanted_.odometry.empty()) {
       if (!recorded_.odometry.contains(wanted_.odometry))
         return fail("holds no odometry of " + wanted_.odometry + "; there is that of " +
-                    listed(names_of(recorded_.odometry)));
+                    listed(names_of(recorded_.odometry), "none"));
       chosen_.odometry = wanted_.odometry;
       return {};
     }
     std::vector<std::string> wheels, fused, truth;
     for (const auto& [topic, about] : recorded_.odometry) {
-      if (!is_of(topic, chosen_.robot)) continue;
+      if (!is_of(topic, about.child, chosen_.robot)) continue;
       (is_truth(topic, about) ? truth : is_fused(topic) ? fused : wheels).push_back(topic);
     }
     const auto most = [&](const std::string& a, const std::string& b) {
-      return recorded_.odometry.at(a).count < recorded_.odometry.at(b).count;
+      const auto worth = [&](const std::string& topic) {
+        return std::pair{sounds_like_wheels(topic), recorded_.odometry.at(topic).count};
+      };
+      return worth(a) < worth(b);
     };
     const auto transforms = std::find_if(recorded_.transforms.begin(), recorded_.transforms.end(),
-                                         [&](const auto& tf) { return is_of(tf.first + "/tf", chosen_.robot); });
+                                         [&](const auto& tf) { return is_of(tf.first + "/tf", {}, chosen_.robot); });
     std::vector<std::string> left;
     if (!wheels.empty()) {
       chosen_.odometry = *std::max_element(wheels.begin(), wheels.end(), most);

@@ -97,5 +97,31 @@ TEST(TopicChoice, GroundTruthIsNeverOdometry) {
   EXPECT_FALSE(choose_topics(recorded, {.scans = {"/scans"}}));
 }
 
+TEST(TopicChoice, RobotsWithoutNameSpacesAreToldApartByTheirFrames) {
+  RecordedTopics recorded{.scans = {{"/scan1", {150, "robot1/laser", true}}, {"/scan2", {100, "robot2/laser", true}}},
+                          .odometry = {{"/odom1", {500, "robot1/odom", "robot1/base_link"}},
+                                       {"/odom2", {900, "robot2/odom", "robot2/base_link"}}}};
+  EXPECT_EQ(chosen(recorded).scans, (Names{"/scan1"}));
+  EXPECT_EQ(chosen(recorded).odometry, "/odom1") << "not the one with most messages";
+  EXPECT_TRUE(is_noted(chosen(recorded), "several robots"));
+  EXPECT_EQ(chosen(recorded, {.robot = "robot2"}).odometry, "/odom2");
+  recorded.odometry.clear();
+  recorded.transforms = {{"/robot1", 500}, {"/robot2", 900}};
+  EXPECT_EQ(chosen(recorded).transforms, "/robot1");
+  // One robot whose frames have a prefix, with odometry that has none.
+  recorded = {.scans = {{"/scan", {9, "robot1/laser", true}}},
+              .odometry = {{"/odom", {9, "odom", "base_link"}}},
+              .transforms = {{"/robot1", 9}}};
+  EXPECT_EQ(chosen(recorded).odometry, "/odom");
+  EXPECT_FALSE(choose_topics(recorded, {.scans = {"/nothing"}}));
+}
+
+TEST(TopicChoice, ANameThatTellsOfWheelsWinsOverOneThatTellsNothing) {
+  const RecordedTopics recorded{.scans = {{"/scan", {100, "laser", true}}},
+                                .odometry = {{"/aligned", {9000, "odom"}}, {"/wheel_encoders", {500, "odom"}}}};
+  EXPECT_EQ(chosen(recorded).odometry, "/wheel_encoders");
+  EXPECT_TRUE(is_noted(chosen(recorded), "/aligned"));
+}
+
 }  // namespace
 }  // namespace docent::recording

@@ -41,7 +41,7 @@ struct Options {
 OccupancyGrid load(const Options& options) {
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is required", 2};
   if (!options.map.empty()) return load_and_say(options.map);
-  return value_or_fail(museum::load_museum(options.museum)).map;
+  return load_museum_and_say(options.museum).map;
 }
 
 localization::LocalizerParams start_params(const Options& options, const OccupancyGrid& map, double max_range) {

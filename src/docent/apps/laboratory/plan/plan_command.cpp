@@ -92,7 +92,7 @@ void plan(Options& options) {
   if (options.map.empty() == options.museum.empty()) throw CommandFailed{"either --map or --museum is needed", 2};
   value_or_fail(options.coastal.validate());
   std::optional<museum::Museum> museum;
-  if (!options.museum.empty()) museum = value_or_fail(museum::load_museum(options.museum));
+  if (!options.museum.empty()) museum = load_museum_and_say(options.museum);
   const OccupancyGrid map = museum ? museum->map : load_and_say(options.map);
   planning::RoutePlanner planner = planner_of(map, museum, options);
   if (planner.is_closed(from)) throw CommandFailed{"--from " + options.from + ": no room for the robot there"};

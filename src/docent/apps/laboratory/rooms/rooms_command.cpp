@@ -78,7 +78,7 @@ void list_rooms(const museum::Museum& museum, const mapping::RegionParams& param
 
 void run(const RoomsOptions& options) {
   value_or_fail(options.params.validate());
-  if (!options.museum.empty()) return list_rooms(value_or_fail(museum::load_museum(options.museum)), options.params);
+  if (!options.museum.empty()) return list_rooms(load_museum_and_say(options.museum), options.params);
   const OccupancyGrid map = load_and_say(options.map);
   const mapping::TopologicalMap rooms = mapping::topological_map(map, options.params);
   for (std::size_t i = 0; i < rooms.places.size(); ++i) {
