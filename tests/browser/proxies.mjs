@@ -76,7 +76,7 @@ export async function apache(robot) {
   mkdirSync(own);
   const user = process.getuid() === 0 ? 'User nobody\nGroup nogroup\n' : '';
   writeFileSync(file, `${modules.join('\n')}\nListen 127.0.0.1:${port}\nServerName museum.example\nServerRoot ${own}\nDefaultRuntimeDir ${own}\n` +
-    `PidFile ${join(own, 'pid')}\nErrorLog /dev/stderr\n${user}<VirtualHost *:${port}>\n${exchange(shown('apache')[0], ['127.0.0.1:8080', `127.0.0.1:${robot}`])}</VirtualHost>\n`);
+    `PidFile ${join(own, 'pid')}\nErrorLog ${join(own, 'error.log')}\n${user}<VirtualHost *:${port}>\n${exchange(shown('apache')[0], ['127.0.0.1:8080', `127.0.0.1:${robot}`])}</VirtualHost>\n`);
   return listens('apache2', start('/usr/sbin/apache2', ['-f', file, '-D', 'FOREGROUND']), `http://127.0.0.1:${port}/robot/`);
 }
 

@@ -21,6 +21,14 @@ constexpr int kMostLargeBodies = 4;          // read at a time, so that nobody f
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
+/// Of a header that comes in several lines, the last: some proxies add a line where others add to a list.
+std::string_view last_of(const http::request<http::string_body>& request, const char* name) {
+  const auto [first, end] = request.equal_range(name);
+  std::string_view last;
+  for (auto line = first; line != end; ++line) last = view_of(line->value());
+  return last;
+}
+
 /// Whoever has logged in may be one of ours; nobody knows it now.
 HttpAnswer unrecognized(const Error& why) {
   return refusal(503, "Nobody can be recognized now: " + why.message + ".\n");
@@ -59,7 +67,9 @@ void HttpConnection::read() {
 void HttpConnection::look_at_header() {
   const auto& request = parser_->get();
   if (!is_called_rightly(request)) {
-    return send(refusal(421, "This robot is not known by that name. Its name belongs into web.hosts of robot.yaml.\n"),
+    return send(refusal(421,
+                        "This robot is not known by that name. Its name belongs into web.hosts of robot.yaml, or the "
+                        "address of the proxy that calls it so into web.proxies.\n"),
                 false, false);
   }
   if (request.target().size() > kLongestTarget) return send(refusal(414, "too long\n"), false, false);
@@ -73,8 +83,8 @@ void HttpConnection::look_at_header() {
 
 bool HttpConnection::understand_call() {
   auto& request = parser_->get();
-  called_ = as_called({view_of(request["X-Forwarded-For"]), view_of(request["X-Forwarded-Host"]),
-                       view_of(request["X-Forwarded-Proto"]), view_of(request["X-Forwarded-Prefix"])},
+  called_ = as_called({last_of(request, "X-Forwarded-For"), last_of(request, "X-Forwarded-Host"),
+                       last_of(request, "X-Forwarded-Proto"), last_of(request, "X-Forwarded-Prefix")},
                       is_proxy(peer()), peer(), view_of(request[http::field::host]));
   const auto below = below_prefix(view_of(request.target()), owner_.prefix);
   if (!below) return true;

@@ -235,6 +235,8 @@ TEST_F(HttpConnections, BelieveAForwardedAddressFromAProxyOfOursAlone) {
   params.proxies = {"127.0.0.1"};
   start(params);
   (void)call("GET /api/v1/forum", "X-Forwarded-For: 1.1.1.1, 203.0.113.9\r\n");
+  (void)call("GET /api/v1/forum", "X-Forwarded-For: 1.1.1.1\r\nX-Forwarded-For: 203.0.113.9\r\n");
+  EXPECT_EQ(desk_->requests().at(2).address, "203.0.113.9") << "in a line of its own";
   EXPECT_EQ(desk_->requests().at(0).address, "127.0.0.1");
   EXPECT_EQ(desk_->requests().at(1).address, "203.0.113.9");
   TestClient viewer{server_->port()};
