@@ -5,6 +5,7 @@ import { defineConfig } from 'vite';
 const robot = process.env.DOCENT ?? '127.0.0.1:8080';
 
 export default defineConfig({
+  base: './', // the pages lie wherever a proxy shows them
   plugins: [svelte()],
   // Five pages, so that none loads what another needs.
   build: {
@@ -18,6 +19,7 @@ export default defineConfig({
     proxy: {
       '/api': `http://${robot}`,
       '/audio': `http://${robot}`,
+      '/camera': `http://${robot}`,
       '/operate': { target: `ws://${robot}`, ws: true, changeOrigin: true, bypass: (request) => (request.headers.upgrade ? undefined : '/operate.html') },
       '/live': { target: `ws://${robot}`, ws: true, changeOrigin: true },
     },

@@ -136,6 +136,17 @@ await check("a second client gets the map, too", async () => {
   await second.newest("/map");
   second.client.close();
 });
+await check("both names of the protocol are known, the client's first counts, and no other is", async () => {
+  const [older, newer] = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
+  for (const [offered, wanted] of [[[older], older], [[newer], newer], [[older, newer], older], [["mqtt", newer, older], newer], [["mqtt"], null]]) {
+    const got = await new Promise((resolve) => {
+      const socket = new WebSocket(url, offered);
+      socket.once("open", () => { resolve(socket.protocol); socket.close(); });
+      socket.once("error", (error) => resolve(/400/.test(error.message) ? null : error.message));
+    });
+    assert.equal(got, wanted, String(offered));
+  }
+});
 await check("nothing can be published, and it says so", async () => {
   first.client.advertise({ topic: "/cmd_vel", encoding: "cdr", schemaName: "geometry_msgs/msg/Twist" });
   first.client.sendMessage(1, new Uint8Array([0, 1, 0, 0]));

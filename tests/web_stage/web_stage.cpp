@@ -17,8 +17,8 @@
 #include "docent/transport/virtual_time_bus.h"
 
 // docent_web_stage MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S]
-// [buttons=PIPE] [seconds=S] The web module of the robot, in real time, among invented messages; with `buttons` also
-// the module that reads the four buttons. Ends on SIGTERM or after `seconds`.
+// [buttons=PIPE] [seconds=S] [set=SECTION.KEY=VALUE …] The web module of the robot, in real time, among invented
+// messages; with `buttons` also the module that reads the four buttons. Ends on SIGTERM or after `seconds`.
 
 namespace {
 
@@ -45,6 +45,7 @@ struct Words {
   int people = 25;
   double end_s = 1e9;
   std::string buttons;
+  std::vector<std::string> settings;  ///< over the defaults of robot.yaml
 };
 
 Words read_words(const std::vector<std::string>& given) {
@@ -61,6 +62,7 @@ Words read_words(const std::vector<std::string>& given) {
     if (const auto text = value("ask="); !text.empty()) words.actor.ask_s = std::stod(text);
     if (const auto text = value("horn="); !text.empty()) words.actor.horn_s = std::stod(text);
     if (const auto text = value("buttons="); !text.empty()) words.buttons = text;
+    if (const auto text = value("set="); !text.empty()) words.settings.push_back(text);
     if (word == "busy") words.actor.is_busy = true;
   }
   return words;
@@ -73,7 +75,7 @@ int main(int argc, char** argv) {
   if (argc < 4) {
     std::fprintf(stderr,
                  "usage: %s MUSEUM_DIR STATE_DIR PORT [lost=S] [people=N] [busy] [speed=V] [talk=F] [ask=S] [horn=S] "
-                 "[buttons=PIPE] [seconds=S]\n",
+                 "[buttons=PIPE] [seconds=S] [set=SECTION.KEY=VALUE …]\n",
                  argv[0]);
     return 2;
   }
@@ -88,7 +90,9 @@ int main(int argc, char** argv) {
   if (!interaction::write_shared(music, state / "audio")) return 2;
   words.actor.music = music.file;
   robot::RobotConfig config;
-  if (const auto set = config.set(std::string{"web.port="} + argv[3]); !set) return 2;
+  words.settings.push_back(std::string{"web.port="} + argv[3]);
+  for (const std::string& setting : words.settings)
+    if (const auto set = config.set(setting); !set) return std::fprintf(stderr, "%s\n", set.error().message.c_str()), 2;
 
   transport::VirtualTimeHub hub;
   Rng rng{4};

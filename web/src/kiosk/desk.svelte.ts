@@ -1,3 +1,4 @@
+import { addressOf, keptAs } from '../lib/site';
 import { app, keyOf, type Wish } from '../lib/state.svelte';
 import { answerOf, helpOf, lampsOf, stopOf } from '../lib/orders';
 import { sentencesOf } from '../lib/sentences';
@@ -27,14 +28,14 @@ interface PollState {
 const polls = {
   read(): PollState {
     try {
-      return JSON.parse(localStorage.getItem('docent.poll') ?? 'null') ?? { wish: '', step: 0 };
+      return JSON.parse(localStorage.getItem(keptAs('poll')) ?? 'null') ?? { wish: '', step: 0 };
     } catch {
       return { wish: '', step: 0 };
     }
   },
   write(state: PollState): void {
     try {
-      localStorage.setItem('docent.poll', JSON.stringify(state));
+      localStorage.setItem(keptAs('poll'), JSON.stringify(state));
     } catch {
       // then a reload begins the questions again
     }
@@ -174,11 +175,11 @@ class Desk {
   /** Until the next choice, and through a reload. */
   private speak(language: string): void {
     app.language = language;
-    sessionStorage.setItem('docent.kiosk.language', language);
+    sessionStorage.setItem(keptAs('kiosk.language'), language);
   }
   private speakMuseumsLanguage(): void {
     const languages = app.museum?.languages ?? [];
-    const kept = sessionStorage.getItem('docent.kiosk.language') ?? '';
+    const kept = sessionStorage.getItem(keptAs('kiosk.language')) ?? '';
     app.language = languages.includes(kept) ? kept : (languages[0] ?? 'en');
   }
 
@@ -228,7 +229,7 @@ class Desk {
       this.isStranger = false;
       return;
     }
-    const answers = await fetch('/api/health', { signal: AbortSignal.timeout(2000) }).then((reply) => reply.ok, () => false);
+    const answers = await fetch(addressOf('/api/health'), { signal: AbortSignal.timeout(2000) }).then((reply) => reply.ok, () => false);
     this.isStranger = answers && app.connection === 'lost' && !this.wasOpen;
   }
   private get wasOpen(): boolean {

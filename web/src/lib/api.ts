@@ -1,5 +1,6 @@
 // Calls to /api/v1 (docs/openapi.json).
 import type { Fault, Me } from './protocol';
+import { addressOf } from './site';
 
 export type ApiFault = Fault['reason'] | 'offline';
 export class ApiError extends Error {
@@ -17,7 +18,7 @@ export async function call<T>(method: 'GET' | 'POST' | 'PUT' | 'DELETE', path: s
   if (method !== 'GET' && csrf) headers['Docent-Csrf'] = csrf;
   let reply: Response;
   try {
-    reply = await fetch(`/api/v1${path}`, { method, headers, body: body && JSON.stringify(body), signal: AbortSignal.timeout(15000) });
+    reply = await fetch(addressOf(`/api/v1${path}`), { method, headers, body: body && JSON.stringify(body), signal: AbortSignal.timeout(15000) });
   } catch {
     throw new ApiError('offline');
   }
@@ -26,10 +27,10 @@ export async function call<T>(method: 'GET' | 'POST' | 'PUT' | 'DELETE', path: s
   return document;
 }
 
-/** What lies there; null: nothing, or nobody answers. */
-export async function fetchText(url: string): Promise<string | null> {
+/** What lies there on the server; null: nothing, or nobody answers. */
+export async function fetchText(path: string): Promise<string | null> {
   try {
-    const reply = await fetch(url, { signal: AbortSignal.timeout(20000) });
+    const reply = await fetch(addressOf(path), { signal: AbortSignal.timeout(20000) });
     return reply.ok ? await reply.text() : null;
   } catch {
     return null;

@@ -32,6 +32,7 @@ import type {
 } from './protocol';
 import { decode } from './protocol';
 import { type Asked, cancelOf, choiceOf, requestOf, voteOf, watchOf } from './orders';
+import { keptAs, lineOf } from './site';
 import { uuid7 } from './uuid';
 import { pageLanguage, reasonText, word } from './words';
 
@@ -47,14 +48,14 @@ export interface Wish extends Asked {
 export const store = {
   read<T>(key: string, otherwise: T): T {
     try {
-      return JSON.parse(localStorage.getItem(`docent.${key}`) ?? 'null') ?? otherwise;
+      return JSON.parse(localStorage.getItem(keptAs(key)) ?? 'null') ?? otherwise;
     } catch {
       return otherwise;
     }
   },
   write(key: string, value: unknown): void {
     try {
-      localStorage.setItem(`docent.${key}`, JSON.stringify(value));
+      localStorage.setItem(keptAs(key), JSON.stringify(value));
     } catch {
       // private window: then it is forgotten with the page
     }
@@ -299,8 +300,7 @@ class App {
   // Connection ---------------------------------------------------------------------------------------------------
 
   private connect(): void {
-    const url = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live${this.screenKey && `?screen=${this.screenKey}`}`;
-    const socket = new WebSocket(url);
+    const socket = new WebSocket(lineOf(`/live${this.screenKey && `?screen=${this.screenKey}`}`));
     this.socket = socket;
     this.lastHeard = performance.now();
     socket.onopen = () => {

@@ -1,4 +1,5 @@
 import type { Hazard, Museum, Point } from '../lib/protocol';
+import { addressOf } from '../lib/site';
 import type { Camera } from './camera';
 import { contoursOf } from './contours';
 import type { Palette } from './palette';
@@ -14,7 +15,7 @@ export class Floorplan {
 
   async load(): Promise<void> {
     const { columns, rows, resolution, origin, url } = this.museum.map;
-    const reply = await fetch(url, { signal: AbortSignal.timeout(20000) });
+    const reply = await fetch(addressOf(url), { signal: AbortSignal.timeout(20000) });
     if (!reply.ok) throw new Error(`${url}: ${reply.status}`);
     const picture = await createImageBitmap(await reply.blob());
     const canvas = document.createElement('canvas');

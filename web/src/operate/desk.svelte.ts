@@ -4,6 +4,7 @@ import { faultText, forumWords } from '../forum/words';
 import { leaseOf, requestOf, setHoursOf, steerOf, stopOf } from '../lib/orders';
 import type { ClientMessage, Me, OperationMessage, SetHoursMessage } from '../lib/protocol';
 import { decode } from '../lib/protocol';
+import { lineOf } from '../lib/site';
 import { app } from '../lib/state.svelte';
 import { uuid7 } from '../lib/uuid';
 
@@ -62,7 +63,7 @@ class OperateDesk {
 
   private connect(): void {
     if (this.socket || !this.isOperator) return;
-    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/operate`);
+    const socket = new WebSocket(lineOf('/operate'));
     this.socket = socket;
     socket.onopen = () => (this.isOpen = true);
     socket.onmessage = (event) => this.take(event.data);

@@ -226,7 +226,9 @@ void add_gateway_command(CLI::App& app) {
       ->check(CLI::Range(1.0, 1e4))
       ->capture_default_str();
   command->add_option("--proxy", options->server.proxies,
-                      "address of a proxy of yours, whose X-Forwarded-For is believed");
+                      "address of a proxy of yours, whose X-Forwarded-For, -Host, -Proto and -Prefix are believed");
+  command->add_option("--prefix", options->server.prefix,
+                      "path below which a proxy shows the page and which it passes on, such as /robot");
   command->add_option("--page", options->page, "folder of the built page; without it the one that came with docent");
   command->callback([options] { run(*options); });
 }

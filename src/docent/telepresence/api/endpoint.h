@@ -32,7 +32,7 @@ struct ApiParams {
   double login_hours = 12.0;       ///< that an account's login lasts
   double visitor_days = 30.0;      ///< that a visitor's name is remembered
   double away_days = 7.0;          ///< that somebody whom a moderator sends away stays away
-  bool secure_cookies = false;     ///< the cookie goes through https only: set it where a proxy speaks https
+  bool secure_cookies = false;     ///< the cookie goes through https only, also where no proxy says X-Forwarded-Proto
   double reads_per_second = 5.0;   ///< of one address, sustained; with 10 s worth of them at once
   double writes_per_second = 0.5;  ///< likewise, of what changes something; with 20 s worth at once
   double logins_per_minute = 6.0;  ///< tries of one address, and of one name; with as many at once

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -12,8 +13,9 @@
 
 namespace docent::telepresence {
 
-/// The name of the protocol in Sec-WebSocket-Protocol.
-inline constexpr std::string_view kFoxgloveProtocol = "foxglove.websocket.v1";
+/// The names of the protocol in Sec-WebSocket-Protocol. Foxglove's SDK and its bridge renamed it, with the same
+/// messages; newer viewers offer the newer name, or both.
+inline constexpr std::array<std::string_view, 2> kFoxgloveProtocols{"foxglove.sdk.v1", "foxglove.websocket.v1"};
 
 /// A topic as a client sees it.
 struct FoxgloveChannel {

@@ -16,7 +16,9 @@ FoxgloveSession::FoxgloveSession(FoxgloveHub& hub, boost::asio::ip::tcp::socket 
                                  std::function<void(FoxgloveSession*)> left)
     : hub_{hub},
       left_{std::move(left)},
-      socket_{std::move(socket), {.longest_message = kLongestRequest, .protocol = std::string{kFoxgloveProtocol}}} {}
+      socket_{std::move(socket), {.longest_message = kLongestRequest, .protocols = protocols()}} {}
+
+std::vector<std::string> FoxgloveSession::protocols() { return {kFoxgloveProtocols.begin(), kFoxgloveProtocols.end()}; }
 
 FoxgloveSession::~FoxgloveSession() { hub_.leave(client_); }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "docent/telepresence/foxglove/hub.h"
 #include "docent/telepresence/web_socket/web_socket.h"
@@ -19,6 +20,8 @@ class FoxgloveSession : public std::enable_shared_from_this<FoxgloveSession> {
   FoxgloveSession(const FoxgloveSession&) = delete;
   FoxgloveSession& operator=(const FoxgloveSession&) = delete;
 
+  /// The names of all that it speaks.
+  [[nodiscard]] static std::vector<std::string> protocols();
   /// Accepts the upgrade and tells what channels there are.
   void run(HttpRequest request);
   void add(std::uint32_t channel, Time time, const FoxgloveClient::Bytes& message);

@@ -5,6 +5,8 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 
+#include "docent/telepresence/server/foxglove_session.h"
+
 namespace docent::telepresence {
 namespace {
 
@@ -18,6 +20,14 @@ constexpr std::size_t kLongestSecret = 128;  // bytes: one of ours is shorter
 constexpr int kMostLargeBodies = 4;          // read at a time, so that nobody fills the memory with them
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// Of a header that comes in several lines, the last: some proxies add a line where others add to a list.
+std::string_view last_of(const http::request<http::string_body>& request, const char* name) {
+  const auto [first, end] = request.equal_range(name);
+  std::string_view last;
+  for (auto line = first; line != end; ++line) last = view_of(line->value());
+  return last;
+}
 
 /// Whoever has logged in may be one of ours; nobody knows it now.
 HttpAnswer unrecognized(const Error& why) {
@@ -57,15 +67,32 @@ void HttpConnection::read() {
 void HttpConnection::look_at_header() {
   const auto& request = parser_->get();
   if (!is_called_rightly(request)) {
-    return send(refusal(421, "This robot is not known by that name. Its name belongs into web.hosts of robot.yaml.\n"),
+    return send(refusal(421,
+                        "This robot is not known by that name. Its name belongs into web.hosts of robot.yaml, or the "
+                        "address of the proxy that calls it so into web.proxies.\n"),
                 false, false);
   }
   if (request.target().size() > kLongestTarget) return send(refusal(414, "too long\n"), false, false);
+  if (!understand_call()) return send_to_page(false);
   const std::uint64_t length = parser_->content_length().value_or(0);
   if (length > longest_body_of(view_of(request.target()))) return send(refusal(413, "too large\n"), false, false);
   if (length > kLongestBody) return read_large_body();
   parser_->body_limit(kLongestBody);
   read_body();
+}
+
+bool HttpConnection::understand_call() {
+  auto& request = parser_->get();
+  called_ = as_called({last_of(request, "X-Forwarded-For"), last_of(request, "X-Forwarded-Host"),
+                       last_of(request, "X-Forwarded-Proto"), last_of(request, "X-Forwarded-Prefix")},
+                      is_proxy(peer()), peer(), view_of(request[http::field::host]));
+  const auto below = below_prefix(view_of(request.target()), owner_.prefix);
+  if (!below) return true;
+  if (below->empty()) return false;
+  // A proxy that takes no path away may name it nevertheless.
+  if (!called_.prefix.ends_with(owner_.prefix)) called_.prefix += owner_.prefix;
+  request.target(std::string{*below});
+  return true;
 }
 
 /// Only operators hold one of the few places for large bodies.
@@ -114,9 +141,8 @@ bool HttpConnection::is_called_rightly(const HttpRequest& request) const {
   return owner_.hosts.is_ours(view_of(request[http::field::host])) || is_proxy(peer());
 }
 
-std::string HttpConnection::address_of(const HttpRequest& request) const {
-  const std::string address = peer();
-  return is_proxy(address) ? forwarded_address(view_of(request["X-Forwarded-For"]), address) : address;
+Opening HttpConnection::opening_of(const HttpRequest& request) const {
+  return {view_of(request[http::field::origin]), called_.host, {}, called_.is_https};
 }
 
 void HttpConnection::call_api(const HttpRequest& request) {
@@ -128,11 +154,9 @@ void HttpConnection::call_api(const HttpRequest& request) {
   call.body = request.body();
   call.token = cookie_value(view_of(request[http::field::cookie]), kLoginCookie).substr(0, kLongestSecret);
   call.csrf = view_of(request["Docent-Csrf"]).substr(0, kLongestSecret);
-  call.address = address_of(request);
+  call.address = called_.address;
   call.is_json = view_of(request[http::field::content_type]).starts_with("application/json");
-  call.is_of_ours =
-      role_of({view_of(request[http::field::origin]), view_of(request[http::field::host]), {}}, owner_.origins, "")
-          .has_value();
+  call.is_of_ours = role_of(opening_of(request), owner_.origins, "").has_value();
   stream_.expires_never();  // until it is answered
   owner_.desk->take(std::move(call), when_answered<ApiReply>([keep_alive](HttpConnection& self, ApiReply reply) {
                       self.send(std::move(reply), keep_alive);
@@ -142,13 +166,13 @@ void HttpConnection::call_api(const HttpRequest& request) {
 void HttpConnection::admit(HttpRequest request) {
   if (!owner_.desk || owner_.is_closing) return send(refusal(503, "not now\n"), false, false);
   std::string token{cookie_value(view_of(request[http::field::cookie]), kLoginCookie)};
-  const std::string address = address_of(request);
   stream_.expires_never();
-  auto open = [request = std::move(request), address](HttpConnection& self, Admitted who) mutable {
+  auto open = [request = std::move(request)](HttpConnection& self, Admitted who) mutable {
     if (!who) return self.send(unrecognized(who.error()), false, false);
     if (!*who) return self.send(refusal(403, "for operators who have logged in\n"), false, false);
-    self.owner_.open_live(self.stream_.release_socket(), std::move(request),
-                          {Role::staff, false, address, (*who)->name, (*who)->login, std::move(self.place_)});
+    self.owner_.open_live(
+        self.stream_.release_socket(), std::move(request),
+        {Role::staff, false, self.called_.address, (*who)->name, (*who)->login, std::move(self.place_)});
   };
   owner_.desk->admit(std::move(token), when_answered<Admitted>(std::move(open)));
 }
@@ -156,14 +180,12 @@ void HttpConnection::admit(HttpRequest request) {
 void HttpConnection::serve() {
   ++owner_.requests;
   HttpRequest request = parser_->release();
-  const Route route = owner_.route({view_of(request.method_string()),
-                                    view_of(request.target()),
-                                    beast::websocket::is_upgrade(request),
-                                    {view_of(request[http::field::origin]), view_of(request[http::field::host]), {}},
-                                    is_local(request)});
+  const Route route =
+      owner_.route({view_of(request.method_string()), view_of(request.target()), beast::websocket::is_upgrade(request),
+                    opening_of(request), is_local(request) || (owner_.shows_foxglove_to_proxies && is_proxy(peer()))});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
-    const std::string address = address_of(request);
+    const std::string address = called_.address;
     const bool is_forwarded = !place_ && address != peer();
     if (is_forwarded && live->role == Role::visitor && !(place_ = owner_.take_place(address)))
       return send(refusal(429, "too many connections from there\n"), false, false);
@@ -173,6 +195,8 @@ void HttpConnection::serve() {
   if (std::holds_alternative<CallApi>(route)) return call_api(request);
   if (std::holds_alternative<OpenOperate>(route)) return admit(std::move(request));
   if (std::holds_alternative<OpenFoxglove>(route)) {
+    if (!agreed_protocol(request, FoxgloveSession::protocols()))
+      return send(refusal(400, "none of these sub-protocols: foxglove.sdk.v1, foxglove.websocket.v1\n"), false, false);
     stream_.expires_never();
     return owner_.open_foxglove(stream_.release_socket(), std::move(request));
   }
@@ -189,7 +213,8 @@ bool HttpConnection::is_local(const HttpRequest& request) const {
   beast::error_code error;
   const auto peer = stream_.socket().remote_endpoint(error);
   if (error || !peer.address().is_loopback()) return false;
-  for (const char* header : {"Forwarded", "X-Forwarded-For", "X-Real-IP", "Via"})
+  for (const char* header : {"Forwarded", "X-Forwarded-For", "X-Forwarded-Host", "X-Forwarded-Proto",
+                             "X-Forwarded-Prefix", "X-Real-IP", "Via"})
     if (request.find(header) != request.end()) return false;
   return true;
 }
@@ -232,7 +257,18 @@ void HttpConnection::send(ApiReply reply, bool keep_alive) {
   set_common_headers();
   response_->set(http::field::content_type, "application/json");
   response_->set(http::field::cache_control, "no-store");
-  if (!reply.set_cookie.empty()) response_->set(http::field::set_cookie, reply.set_cookie);
+  if (!reply.set_cookie.empty())
+    response_->set(http::field::set_cookie, cookie_for(called_, std::move(reply.set_cookie)));
+  write(false, keep_alive);
+}
+
+/// From "/robot" to "/robot/", whatever stands before it on the way: so its files are found.
+void HttpConnection::send_to_page(bool keep_alive) {
+  body_ = std::make_shared<const std::string>();
+  response_.emplace();
+  response_->result(http::status::permanent_redirect);
+  set_common_headers();
+  response_->set(http::field::location, owner_.prefix.substr(owner_.prefix.rfind('/') + 1) + "/");
   write(false, keep_alive);
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "docent/telepresence/api/exchange/exchange.h"
+#include "docent/telepresence/api/exchange/forwarding.h"
 #include "docent/telepresence/limits/hosts.h"
 #include "docent/telepresence/limits/place.h"
 #include "docent/telepresence/server/router.h"
@@ -38,8 +39,10 @@ struct HttpOwner {
   std::shared_ptr<ApiDesk> desk;  ///< null: there is no /api/v1
   /// A place among those of that address; null: it has none left.
   std::function<std::shared_ptr<Place>(const std::string& address)> take_place;
-  std::vector<std::string> proxies;  ///< addresses whose X-Forwarded-For is believed
-  std::vector<std::string> origins;  ///< see role_of
+  std::vector<std::string> proxies;        ///< addresses whose X-Forwarded-… is believed
+  std::vector<std::string> origins;        ///< see role_of
+  std::string prefix;                      ///< below which the page may be asked for, too; empty: nowhere else
+  bool shows_foxglove_to_proxies = false;  ///< and not to programs of this computer alone
   Hosts hosts{{}};
   std::atomic<int> asked{0};             ///< of the desk, and not yet answered
   std::atomic<bool> is_closing = false;  ///< the desk is asked no more
@@ -75,6 +78,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   };
 
   void look_at_header();
+  /// Takes what a proxy says for granted, and the prefix away from the target; false: the prefix is all there is.
+  [[nodiscard]] bool understand_call();
   void read_large_body();
   void read_body();
   void complain(boost::beast::error_code error);
@@ -85,7 +90,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   /// Takes what the desk has to say back to the server's thread.
   template <class Answer, class Then>
   auto when_answered(Then then);
-  [[nodiscard]] std::string address_of(const HttpRequest& request) const;
+  [[nodiscard]] Opening opening_of(const HttpRequest& request) const;
   /// The other end is a program of this computer; a proxy says for whom it speaks.
   [[nodiscard]] std::string peer() const;
   [[nodiscard]] bool is_proxy(const std::string& address) const;
@@ -94,6 +99,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   [[nodiscard]] bool is_local(const HttpRequest& request) const;
   void send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip);
   void send(ApiReply reply, bool keep_alive);
+  void send_to_page(bool keep_alive);
   void set_common_headers();
   void write(bool is_head, bool keep_alive);
 
@@ -102,6 +108,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   std::shared_ptr<Place> place_;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
+  AsCalled called_;  ///< of the request that is being answered
   std::optional<LargeBody> large_body_;
   std::shared_ptr<const std::string> body_;
   std::optional<boost::beast::http::response<Body>> response_;

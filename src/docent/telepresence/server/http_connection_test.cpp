@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "docent/telepresence/foxglove/hub.h"
 #include "docent/telepresence/server/test_client.h"
 #include "docent/telepresence/server/web_server.h"
 
@@ -27,7 +28,7 @@ class ADesk final : public ApiDesk {
     requests_.push_back(request);
     threads_.emplace_back([answer = std::move(answer), delay = delay] {
       std::this_thread::sleep_for(delay);
-      answer({200, R"({"ok":true})", "docent_login=abc; HttpOnly"});
+      answer({200, R"({"ok":true})", "docent_login=abc; Path=/; HttpOnly"});
     });
   }
   void admit(std::string token, std::function<void(Admitted)> answer) override {
@@ -74,6 +75,7 @@ class HttpConnections : public testing::Test {
                                           arrived_.push_back(address);
                                         },
                                     .left = [this](const Caller& caller) { left_.set_value(caller.name); },
+                                    .foxglove = hub_,
                                     .desk = desk_});
     ASSERT_TRUE(server) << server.error().message;
     server_ = std::move(*server);
@@ -89,6 +91,17 @@ class HttpConnections : public testing::Test {
   std::vector<std::pair<Caller, ClientMessage>> heard_;
   std::vector<std::string> arrived_;
   std::promise<std::string> left_;
+  std::shared_ptr<FoxgloveHub> hub_ =
+      std::make_shared<FoxgloveHub>("robot", std::vector<FoxgloveChannel>{}, [](std::uint32_t) {});
+  /// What the server answers to a viewer of ROS 2 that opens /foxglove.
+  [[nodiscard]] std::string opened(const std::string& headers) const {
+    TestClient client{server_->port()};
+    client.send(
+        "GET /foxglove HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: "
+        "dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n" +
+        headers + "\r\n");
+    return client.receive_reply().first;
+  }
   std::shared_ptr<ADesk> desk_ = std::make_shared<ADesk>();
   std::unique_ptr<WebServer> server_;
 };
@@ -101,7 +114,7 @@ TEST_F(HttpConnections, HandCallsToTheDeskAndAnswersBack) {
                                  "{}");
   EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
   for (const char* wanted :
-       {"Cache-Control: no-store", "Set-Cookie: docent_login=abc; HttpOnly", "Content-Type: application/json",
+       {"Cache-Control: no-store", "Set-Cookie: docent_login=abc; Path=/; HttpOnly", "Content-Type: application/json",
         "Content-Security-Policy: ", "X-Content-Type-Options: nosniff"})
     EXPECT_NE(head.find(wanted), std::string::npos) << head;
   EXPECT_EQ(body, R"({"ok":true})");
@@ -222,12 +235,111 @@ TEST_F(HttpConnections, BelieveAForwardedAddressFromAProxyOfOursAlone) {
   params.proxies = {"127.0.0.1"};
   start(params);
   (void)call("GET /api/v1/forum", "X-Forwarded-For: 1.1.1.1, 203.0.113.9\r\n");
+  (void)call("GET /api/v1/forum", "X-Forwarded-For: 1.1.1.1\r\nX-Forwarded-For: 203.0.113.9\r\n");
+  EXPECT_EQ(desk_->requests().at(2).address, "203.0.113.9") << "in a line of its own";
   EXPECT_EQ(desk_->requests().at(0).address, "127.0.0.1");
   EXPECT_EQ(desk_->requests().at(1).address, "203.0.113.9");
   TestClient viewer{server_->port()};
   ASSERT_TRUE(viewer.upgrade("X-Forwarded-For: 203.0.113.10\r\n"));
   const std::scoped_lock lock{mutex_};
   EXPECT_EQ(arrived_, std::vector<std::string>{"203.0.113.10"});
+}
+
+TEST_F(HttpConnections, BehindAProxyOfOursAreCalledByItsName) {
+  const std::string forwarded =
+      "X-Forwarded-Host: museum.example\r\nX-Forwarded-Proto: https\r\nX-Forwarded-Prefix: /robot\r\n";
+  const std::string page = "Origin: https://museum.example\r\n";
+  start();
+  (void)call("GET /api/v1/forum", forwarded + page);
+  EXPECT_FALSE(TestClient{server_->port()}.upgrade(forwarded + page)) << "nobody of ours says so";
+  server_.reset();
+  WebServerParams params;
+  params.proxies = {"127.0.0.1"};
+  start(params);
+  const auto [head, body] = call("GET /api/v1/forum", forwarded + page);
+  EXPECT_FALSE(desk_->requests().at(0).is_of_ours);
+  EXPECT_TRUE(desk_->requests().at(1).is_of_ours);
+  EXPECT_NE(head.find("Set-Cookie: docent_login=abc; Path=/robot/; HttpOnly; Secure\r\n"), std::string::npos) << head;
+  EXPECT_TRUE(TestClient{server_->port()}.upgrade(forwarded + page));
+  EXPECT_FALSE(TestClient{server_->port()}.upgrade(forwarded + "Origin: http://museum.example\r\n")) << "not by https";
+  EXPECT_FALSE(TestClient{server_->port()}.upgrade(forwarded + "Origin: http://localhost\r\n")) << "the proxy's own";
+}
+
+TEST_F(HttpConnections, BelowTheirPrefixEverythingIsWhereItIsWithout) {
+  WebServerParams params;
+  params.prefix = "/museum/robot";
+  start(params);
+  for (const char* path : {"/museum/robot/api/v1/forum?x=1", "/api/v1/forum?x=1"}) {
+    const bool is_below = path[1] == 'm';
+    const auto [head, body] = call(std::string{"GET "} + path);
+    EXPECT_TRUE(head.starts_with("HTTP/1.1 200")) << head;
+    EXPECT_EQ(head.find("Path=/museum/robot/;") != std::string::npos, is_below) << head;
+    EXPECT_EQ(head.find("Path=/;") != std::string::npos, !is_below) << head;
+    EXPECT_EQ(desk_->requests().back().target, "/api/v1/forum?x=1");
+    EXPECT_EQ(TestClient{server_->port()}.upgrade("", is_below ? "/museum/robot/live" : "/live"), true);
+  }
+  EXPECT_TRUE(call("GET /museum/robots/api/v1/forum").first.starts_with("HTTP/1.1 404"));
+  const auto [head, body] = call("GET /museum/robot");
+  EXPECT_TRUE(head.starts_with("HTTP/1.1 308")) << head;
+  EXPECT_NE(head.find("Location: robot/\r\n"), std::string::npos) << head;
+}
+
+TEST_F(HttpConnections, AProxyThatPassesOnThePathMayNameItAsWell) {
+  WebServerParams params;
+  params.proxies = {"127.0.0.1"};
+  params.prefix = "/robot";
+  start(params);
+  for (const auto& [named, path] : std::vector<std::pair<std::string, std::string>>{
+           {"", "/robot/"}, {"/robot", "/robot/"}, {"/museum", "/museum/robot/"}}) {
+    const auto [head, body] = call("GET /robot/api/v1/forum", "X-Forwarded-Prefix: " + named + "\r\n");
+    EXPECT_NE(head.find("Path=" + path + ";"), std::string::npos) << head;
+  }
+}
+
+TEST_F(HttpConnections, AgreeOnTheSubProtocolOfAFoxgloveClient) {
+  WebServerParams params;
+  params.foxglove_clients = 100;  // those who have just gone may not be missed yet
+  start(params);
+  for (const std::string name : {"foxglove.websocket.v1", "foxglove.sdk.v1"})
+    for (const std::string others : {"", ", mqtt", ", foxglove.sdk.v2"}) {
+      const std::string head = opened("Sec-WebSocket-Protocol: " + name + others + "\r\n");
+      EXPECT_TRUE(head.starts_with("HTTP/1.1 101")) << head;
+      EXPECT_NE(head.find("Sec-WebSocket-Protocol: " + name + "\r\n"), std::string::npos) << head;
+    }
+  EXPECT_TRUE(opened("Sec-WebSocket-Protocol: mqtt, foxglove.sdk.v2\r\n").starts_with("HTTP/1.1 400"));
+  const std::string silent = opened("");  // a client that asks for none must not be told one (RFC 6455, 4.1)
+  EXPECT_TRUE(silent.starts_with("HTTP/1.1 101")) << silent;
+  EXPECT_EQ(silent.find("Sec-WebSocket-Protocol"), std::string::npos) << silent;
+}
+
+TEST_F(HttpConnections, ShowFoxgloveToProxiesWhereTheyMayHandOn) {
+  for (const bool may : {false, true}) {
+    for (const bool is_ours : {false, true}) {
+      WebServerParams params;
+      params.proxies = {is_ours ? "127.0.0.1" : "127.0.0.9"};
+      params.foxglove_by_proxy = may;
+      params.foxglove_clients = 100;
+      start(params);
+      for (const char* header : {"X-Forwarded-For: 203.0.113.9", "X-Forwarded-Host: localhost",
+                                 "X-Forwarded-Proto: http", "Via: 1.1 museum"})
+        EXPECT_EQ(opened(std::string{header} + "\r\n").starts_with("HTTP/1.1 101"), may && is_ours) << header;
+      EXPECT_TRUE(opened("").starts_with("HTTP/1.1 101")) << "a program of this computer";
+      server_.reset();
+    }
+  }
+}
+
+TEST(WebPrefix, IsAPathThatIsNoneOfThePagesOwn) {
+  for (const char* good : {"", "/robot", "/museum/robot", "/apis"}) {
+    WebServerParams params;
+    params.prefix = good;
+    EXPECT_TRUE(params.validate()) << good;
+  }
+  for (const char* bad : {"robot", "/", "/robot/", "/api", "/live/robot", "https://museum.example/robot"}) {
+    WebServerParams params;
+    params.prefix = bad;
+    EXPECT_FALSE(params.validate()) << bad;
+  }
 }
 
 TEST_F(HttpConnections, OfOneForwardedAddressThereAreSoManyLines) {

@@ -1,6 +1,7 @@
 #include <utility>  // first: Beast 1.74 forgets it in C++20
 //
 #include <algorithm>
+#include <array>
 #include <boost/beast/core/string.hpp>
 
 #include "docent/telepresence/server/roles.h"
@@ -8,19 +9,25 @@
 namespace docent::telepresence {
 namespace {
 
+constexpr std::string_view kHttps = "https://";
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSchemes{{{"http://", ":80"}, {kHttps, ":443"}}};
+
 bool is_page_of_ours(const Opening& opening, const std::vector<std::string>& others) {
   if (opening.origin.empty()) return true;
   std::string_view page = opening.origin;
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (page.starts_with(scheme)) {
-      page.remove_prefix(scheme.size());
-      break;
-    }
+  std::string_view own_port;  // of the scheme: an origin does not name it, and a proxy may
+  for (const auto& [scheme, port] : kSchemes) {
+    if (!page.starts_with(scheme)) continue;
+    page.remove_prefix(scheme.size());
+    own_port = port;
+    break;
   }
-  const auto is_page_of = [page](std::string_view host) {
+  const auto is_page_of = [page, own_port](std::string_view host) {
+    if (!own_port.empty() && host.ends_with(own_port)) host.remove_suffix(own_port.size());
     return boost::beast::iequals({page.data(), page.size()}, {host.data(), host.size()});
   };
-  return is_page_of(opening.host) || std::any_of(others.begin(), others.end(), is_page_of);
+  const bool is_changeable = opening.is_https && !opening.origin.starts_with(kHttps);
+  return (!is_changeable && is_page_of(opening.host)) || std::any_of(others.begin(), others.end(), is_page_of);
 }
 
 }  // namespace

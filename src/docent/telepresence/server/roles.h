@@ -23,6 +23,7 @@ struct Opening {
   std::string_view origin;  ///< whose page opens it; empty: not a browser
   std::string_view host;    ///< whom it calls
   std::string_view key;     ///< with which a page says that it is the robot's own screen; empty: it does not say so
+  bool is_https = false;    ///< it calls by https: a page that anybody on the way may have changed is not ours then
 };
 
 /// In the same time whatever the keys have in common; an empty one is none.

@@ -13,6 +13,23 @@ TEST(Roles, PagesOfOtherSitesMayNotOpenTheChannel) {
     EXPECT_EQ(role_of({origin, "robot.test", ""}, others, "k1"), std::nullopt) << origin;
 }
 
+TEST(Roles, ThePortOfTheSchemeGoesWithoutSaying) {
+  EXPECT_EQ(role_of({"https://robot.test", "robot.test:443", ""}, {}, ""), Role::visitor);
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test:80", ""}, {}, ""), Role::visitor);
+  EXPECT_EQ(role_of({"https://robot.test:8443", "robot.test:8443", ""}, {}, ""), Role::visitor);
+  EXPECT_EQ(role_of({"https://robot.test", "robot.test:80", ""}, {}, ""), std::nullopt);
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test:443", ""}, {}, ""), std::nullopt);
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test:8080", ""}, {}, ""), std::nullopt) << "another site";
+}
+
+TEST(Roles, APageThatCameWithoutHttpsSpeaksForNobodyOverHttps) {
+  EXPECT_EQ(role_of({"https://robot.test", "robot.test", "", true}, {}, ""), Role::visitor);
+  EXPECT_EQ(role_of({"http://robot.test", "robot.test", "", true}, {}, ""), std::nullopt);
+  EXPECT_EQ(role_of({"http://museum.test", "robot.test", "", true}, {"museum.test"}, ""), Role::visitor)
+      << "named by the owner";
+  EXPECT_EQ(role_of({"", "robot.test", "", true}, {}, ""), Role::visitor) << "no browser";
+}
+
 TEST(Roles, OnlyItsKeyMakesAPageTheRobotsScreen) {
   EXPECT_EQ(role_of({"http://robot.test", "robot.test", "k1"}, {}, "k1"), Role::kiosk);
   EXPECT_EQ(role_of({"http://evil.test", "robot.test", "k1"}, {}, "k1"), std::nullopt);

@@ -12,6 +12,14 @@ constexpr std::string_view kFoxglove = "/foxglove";
 constexpr std::string_view kThinLive = "/live?thin";
 constexpr std::string_view kLiveOfScreen = "/live?screen=";
 
+constexpr const char* kForThisComputer =
+    "for programs of the robot's own computer; web.foxglove_by_proxy lets in whom a proxy of web.proxies hands on\n";
+/// What whoever set up a proxy has to know.
+constexpr const char* kBehindAProxy =
+    ": the name in Origin is not the one that was called. A proxy must pass on Host or X-Forwarded-Host, and belongs "
+    "into "
+    "web.proxies of robot.yaml; web.origins names other sites\n";
+
 }  // namespace
 
 HttpAnswer refusal(int status, std::string text) {
@@ -25,13 +33,13 @@ HttpAnswer refusal(int status, std::string text) {
 Route Router::route(const RouteRequest& request, bool is_full) const {
   if (request.is_upgrade && request.target == kFoxglove) {
     if (!role_of(request.opening, origins_, screen_key_))
-      return refusal(403, "pages of another site may not look in\n");
-    if (!request.is_local) return refusal(403, "for programs of the robot's own computer\n");
+      return refusal(403, std::string{"pages of another site may not look in"} + kBehindAProxy);
+    if (!request.is_local) return refusal(403, kForThisComputer);
     return OpenFoxglove{};
   }
   if (request.is_upgrade && request.target == kOperate) {
     if (!role_of(request.opening, origins_, screen_key_))
-      return refusal(403, "pages of another site may not steer the robot\n");
+      return refusal(403, std::string{"pages of another site may not steer the robot"} + kBehindAProxy);
     return OpenOperate{};
   }
   if (request.is_upgrade) {
@@ -42,7 +50,7 @@ Route Router::route(const RouteRequest& request, bool is_full) const {
     if (is_screen) opening.key = request.target.substr(kLiveOfScreen.size());
     const auto role = role_of(opening, origins_, screen_key_);
     if (!role && is_screen) return refusal(403, "this is not the robot's own screen\n");
-    if (!role) return refusal(403, "pages of another site may not steer the robot\n");
+    if (!role) return refusal(403, std::string{"pages of another site may not steer the robot"} + kBehindAProxy);
     if (is_full) return refusal(503, "too many viewers\n");
     return OpenLive{*role, is_thin};
   }

@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "docent/telepresence/api/exchange/forwarding.h"
 #include "docent/telepresence/limits/descriptors.h"
 #include "docent/telepresence/limits/network.h"
 #include "docent/telepresence/server/foxglove_session.h"
@@ -83,6 +84,8 @@ struct WebServer::Core {
     http.take_place = [this](const std::string& address) { return take_place(address); };
     http.origins = params.origins;
     http.proxies = params.proxies;
+    http.prefix = params.prefix;
+    http.shows_foxglove_to_proxies = params.foxglove_by_proxy;
     http.hosts = Hosts{names_of(params)};
     http.route = [this](const RouteRequest& request) {
       return router.route(request, viewers >= static_cast<std::size_t>(params.max_viewers));
@@ -162,6 +165,14 @@ Result<void> WebServerParams::validate() const {
   if (uplink_picture_bytes_per_s < 100) return fail("web.uplink_picture_bytes_per_s must be at least 100");
   for (const double rate : {uplink_messages_per_second, uplink_calls_per_second, uplink_writes_per_second})
     if (!(rate >= 1.0)) return fail("web.uplink_…_per_second must be at least 1");
+  if (!prefix.empty() && !is_path_prefix(prefix))
+    return fail("web.prefix must be empty or a path such as /robot, without a / at its end, not '" + prefix + "'");
+  for (const std::string name : {"/api", "/assets", "/audio", "/camera", "/face", "/foxglove", "/kiosk", "/live",
+                                 "/metrics", "/operate", "/setup"})
+    if (prefix == name || prefix.starts_with(name + "/"))
+      return fail("web.prefix is a path of the page's own: " + name);
+  if (foxglove_by_proxy && proxies.empty())
+    return fail("web.foxglove_by_proxy needs web.proxies: an address that may hand on");
   if (!(idle_timeout_s >= 1.0)) return fail("web.idle_timeout_s must be at least 1");
   return {};
 }

@@ -21,6 +21,7 @@ struct WebServerParams {
   int max_connections = 12000;        ///< all kinds together
   int max_viewers = 10000;            ///< on the live channel
   int foxglove_clients = 4;           ///< at /foxglove, from this computer alone; 0: nobody
+  bool foxglove_by_proxy = false;     ///< also those whom a proxy of `proxies` hands on: it must say who may look in
   int full_viewers = 200;             ///< who get more than the pose of what moves; who comes later gets the pose alone
   double messages_per_second = 2.0;   ///< of one viewer, sustained
   double message_burst = 20.0;        ///< of one viewer
@@ -41,7 +42,10 @@ struct WebServerParams {
   std::vector<std::string> hosts;    ///< names by which the server may be called, besides localhost, addresses and
                                      ///< the computer's own; behind a proxy that passes on Host: the public name
   std::vector<std::string> origins;  ///< hosts besides the server's own whose pages may open the live channel
-  std::vector<std::string> proxies;  ///< addresses of proxies of ours: the address that they forward is believed
+  std::vector<std::string> proxies;  ///< addresses of proxies of ours: what they say of the caller (X-Forwarded-For,
+                                     ///< -Host, -Proto, -Prefix) is believed
+  std::string prefix;                ///< path below which a proxy shows the page and which it passes on, such as
+                                     ///< /robot; empty: it takes the path away, or there is none
   template <class V>
   void visit(V& v) {
     v("address", address);
@@ -49,6 +53,7 @@ struct WebServerParams {
     v("max_connections", max_connections);
     v("max_viewers", max_viewers);
     v("foxglove_clients", foxglove_clients);
+    v("foxglove_by_proxy", foxglove_by_proxy);
     v("full_viewers", full_viewers);
     v("messages_per_second", messages_per_second);
     v("message_burst", message_burst);
@@ -69,6 +74,7 @@ struct WebServerParams {
     v("hosts", hosts);
     v("origins", origins);
     v("proxies", proxies);
+    v("prefix", prefix);
   }
   [[nodiscard]] Result<void> validate() const;
 };

@@ -1,5 +1,6 @@
 #include "docent/telepresence/web_socket/web_socket.h"
 
+#include <algorithm>
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
@@ -16,6 +17,19 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 using asio::ip::tcp;
+
+std::optional<std::string> agreed_protocol(const HttpRequest& request, const std::vector<std::string>& spoken) {
+  bool offers_one = false;
+  const auto [first, end] = request.equal_range(http::field::sec_websocket_protocol);
+  for (auto line = first; line != end; ++line) {
+    for (const auto& offered : http::token_list{line->value()}) {
+      offers_one = true;
+      const auto same = std::find(spoken.begin(), spoken.end(), std::string{offered.data(), offered.size()});
+      if (same != spoken.end()) return *same;
+    }
+  }
+  return offers_one ? std::nullopt : std::optional{std::string{}};
+}
 
 /// What a line can do, whatever it runs on.
 class WebSocket::Stream : public std::enable_shared_from_this<Stream> {
@@ -40,7 +54,7 @@ class WebSocket::StreamOn final : public Stream {
  public:
   template <class... Parts>
   explicit StreamOn(std::shared_ptr<asio::ssl::context> keys, const WebSocketManner& manner, Parts&&... parts)
-      : keys_{std::move(keys)}, websocket_{std::forward<Parts>(parts)...} {
+      : keys_{std::move(keys)}, protocols_{manner.protocols}, websocket_{std::forward<Parts>(parts)...} {
     websocket::stream_base::timeout timeout{};
     timeout.handshake_timeout = manner.handshake_timeout;
     timeout.idle_timeout = manner.idle_timeout;
@@ -51,11 +65,6 @@ class WebSocket::StreamOn final : public Stream {
     websocket_.set_option(deflate);
     websocket_.read_message_max(manner.longest_message);
     websocket_.auto_fragment(false);
-    if (manner.protocol.empty()) return;
-    websocket_.set_option(
-        websocket::stream_base::decorator([protocol = manner.protocol](websocket::response_type& response) {
-          response.set(http::field::sec_websocket_protocol, protocol);
-        }));
   }
 
   void secure(bool is_server, std::chrono::milliseconds patience, Done done) override {
@@ -73,6 +82,11 @@ class WebSocket::StreamOn final : public Stream {
   }
   void accept(HttpRequest request, Done done) override {
     request_ = std::move(request);
+    if (const auto protocol = agreed_protocol(request_, protocols_); protocol && !protocol->empty()) {
+      websocket_.set_option(websocket::stream_base::decorator([name = *protocol](websocket::response_type& response) {
+        response.set(http::field::sec_websocket_protocol, name);
+      }));
+    }
     websocket_.async_accept(request_, [this, self = shared_from_this(), done = std::move(done)](Error error) {
       request_ = {};
       done(error);
@@ -107,6 +121,7 @@ class WebSocket::StreamOn final : public Stream {
 
  private:
   const std::shared_ptr<asio::ssl::context> keys_;  ///< outlives the stream
+  const std::vector<std::string> protocols_;        ///< that it speaks
   websocket::stream<Next> websocket_;
   beast::flat_buffer buffer_;
   HttpRequest request_;  ///< until it is accepted

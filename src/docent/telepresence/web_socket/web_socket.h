@@ -10,8 +10,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "docent/telepresence/web_socket/pre_shared_key.h"
 
@@ -26,8 +28,14 @@ struct WebSocketManner {
   std::chrono::milliseconds idle_timeout = std::chrono::seconds{300};  ///< without a byte from the other end
   bool pings = true;                                                   ///< when half of that is over
   bool compresses = false;                                             ///< what it sends, if the other end agrees
-  std::string protocol = {};                                           ///< that a server says it speaks; empty: none
+  std::vector<std::string> protocols = {};                             ///< that a server speaks; empty: it names none
 };
+
+/// Of the sub-protocols that a client offers (Sec-WebSocket-Protocol), the first that a server speaks, for a client
+/// names them in the order in which it wants them. Empty: it offers none. nullopt: none that the server speaks (RFC
+/// 6455, 4.2.2: then the server names none, and a client that must have one fails; or the server refuses the upgrade).
+[[nodiscard]] std::optional<std::string> agreed_protocol(const HttpRequest& request,
+                                                         const std::vector<std::string>& spoken);
 
 /// Why an end closes (RFC 6455, 7.4.1).
 enum class CloseCode : std::uint16_t { unknown_data = 1003, policy_error = 1008 };

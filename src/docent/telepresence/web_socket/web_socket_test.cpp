@@ -171,5 +171,22 @@ TEST_F(WebSocketTest, WhatIsUnderWayFailsWhenItIsDropped) {
   EXPECT_TRUE(*far);
 }
 
+HttpRequest offering(const std::vector<std::string>& lines) {
+  HttpRequest request;
+  for (const std::string& line : lines) request.insert(beast::http::field::sec_websocket_protocol, line);
+  return request;
+}
+
+TEST(ASubProtocol, IsTheFirstOfTheClientsThatTheServerSpeaks) {
+  const std::vector<std::string> spoken{"new.v1", "old.v1"};
+  EXPECT_EQ(agreed_protocol(offering({"old.v1"}), spoken), "old.v1");
+  EXPECT_EQ(agreed_protocol(offering({"other, new.v1,old.v1"}), spoken), "new.v1");
+  EXPECT_EQ(agreed_protocol(offering({"old.v1 , new.v1"}), spoken), "old.v1");
+  EXPECT_EQ(agreed_protocol(offering({"other", "new.v1"}), spoken), "new.v1") << "in two lines";
+  EXPECT_EQ(agreed_protocol(offering({}), spoken), "") << "none is offered";
+  EXPECT_EQ(agreed_protocol(offering({"other"}), spoken), std::nullopt);
+  EXPECT_EQ(agreed_protocol(offering({"new.v10, NEW.V1"}), spoken), std::nullopt) << "names are compared as they stand";
+}
+
 }  // namespace
 }  // namespace docent::telepresence

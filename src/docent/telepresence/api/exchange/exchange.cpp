@@ -23,13 +23,4 @@ std::string_view cookie_value(std::string_view header, std::string_view name) {
   return {};
 }
 
-std::string forwarded_address(std::string_view header, std::string_view peer) {
-  constexpr std::size_t kLongest = 45;  // an IPv6 address with an IPv4 one in it
-  const auto comma = header.rfind(',');
-  const std::string_view last = trimmed(comma == std::string_view::npos ? header : header.substr(comma + 1));
-  const bool is_address = !last.empty() && last.size() <= kLongest &&
-                          last.find_first_not_of("0123456789abcdefABCDEF.:") == std::string_view::npos;
-  return std::string{is_address ? last : peer};
-}
-
 }  // namespace docent::telepresence

@@ -69,7 +69,5 @@ class ApiDesk {
 inline constexpr std::string_view kLoginCookie = "docent_login";
 /// The value of a cookie in the header `Cookie` (RFC 6265, 4.2.1); empty: it has none of that name.
 [[nodiscard]] std::string_view cookie_value(std::string_view header, std::string_view name);
-/// The nearest address of X-Forwarded-For, which a proxy of ours has added; `peer` where there is none.
-[[nodiscard]] std::string forwarded_address(std::string_view header, std::string_view peer);
 
 }  // namespace docent::telepresence
