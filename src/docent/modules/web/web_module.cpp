@@ -66,8 +66,8 @@ std::string database_of(const ModuleContext& context, const WebParams& params) {
 }
 
 telepresence::WebServiceParts service_parts(const ModuleContext& context, const WebParams& params,
-                                            telepresence::WebStore store, telepresence::Desk* desk,
-                                            Offices& offices, const std::string& gateway) {
+                                            telepresence::WebStore store, telepresence::Desk* desk, Offices& offices,
+                                            const std::string& gateway) {
   const interaction::SharedSound horn = interaction::horn_sound();
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);

@@ -13,9 +13,7 @@ constexpr double kLeastSpeed = 0.05;     // [m/s] so that a robot that waits is 
 constexpr double kLargestStep_m = 1.0;   // a pose farther from the last one is no drive
 constexpr double kLongestPause_s = 1.0;  // [s] between two ticks that count as driving
 
-bool is_place(const Pose2& pose) {
-  return std::abs(pose.x) < kFarthest && std::abs(pose.y) < kFarthest;
-}
+bool is_place(const Pose2& pose) { return std::abs(pose.x) < kFarthest && std::abs(pose.y) < kFarthest; }
 
 std::string target_of(const Pose2& pose, bool is_last) {
   char text[64];

@@ -40,7 +40,7 @@ struct ProgrammeExhibit {
 
 /// Where a wish for a point on the map wants the robot.
 struct PointWish {
-  Point2 place;                     ///< [m], map
+  Point2 place;                    ///< [m], map
   std::optional<Angle> heading{};  ///< to take there; nullopt: that in which it comes
 };
 /// "x,y" or "x,y,heading" [m, rad], map; nullopt: it is no such text.

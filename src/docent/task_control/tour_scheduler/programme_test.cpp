@@ -19,8 +19,8 @@ TEST(PointName, IsTheSameForTheSamePlace) {
   EXPECT_EQ(point_name({{-0.001, -2.0}}), "0.00,-2.00");
   EXPECT_EQ(point_name(*point_of("3,4.5,1.5708")), "3.00,4.50,1.57");
   EXPECT_EQ(point_name(*point_of("3,4.5,-0.001")), "3.00,4.50,0.00");
-  for (const char* text : {"", "3", "3,", ",4", "3,4,", "3,4,5,6", "3,4,5 ", "3,4,x", "3,4,nan", "3,4,1e9", "3,4 ", "x,4",
-                           "nan,1", "inf,1", "20000,1"})
+  for (const char* text : {"", "3", "3,", ",4", "3,4,", "3,4,5,6", "3,4,5 ", "3,4,x", "3,4,nan", "3,4,1e9", "3,4 ",
+                           "x,4", "nan,1", "inf,1", "20000,1"})
     EXPECT_FALSE(point_of(text)) << text;
 }
 

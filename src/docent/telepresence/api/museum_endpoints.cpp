@@ -1,6 +1,6 @@
 #include "docent/telepresence/api/endpoint.h"
-#include "docent/telepresence/museum_office/museum_documents.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/museum_office/museum_documents.h"
 #include "docent/telepresence/robot_office/robot_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 

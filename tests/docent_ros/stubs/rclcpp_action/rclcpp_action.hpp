@@ -21,8 +21,7 @@ template <class ActionT>
 class ServerGoalHandle {
  public:
   enum class Status { executing, canceling, succeeded, canceled, aborted };
-  ServerGoalHandle(GoalUUID id, std::shared_ptr<const typename ActionT::Goal> goal)
-      : id_{id}, goal_{std::move(goal)} {}
+  ServerGoalHandle(GoalUUID id, std::shared_ptr<const typename ActionT::Goal> goal) : id_{id}, goal_{std::move(goal)} {}
 
   [[nodiscard]] bool is_canceling() const { return status == Status::canceling; }
   [[nodiscard]] bool is_active() const { return status == Status::executing || status == Status::canceling; }

@@ -37,8 +37,7 @@ RobotDesk::RobotDesk(transport::Bus& bus) : bus_{bus}, requests_{bus.publisher(t
     bus_.post([this, goal] { tell(request_of(goal.id, RequestKind::point, target_of(goal))); });
   };
   office.cancel = [this](const std::string& goal) {
-    bus_.post(
-        [this, goal] { tell(request_of(telepresence::withdrawal_id(goal), RequestKind::cancel, goal)); });
+    bus_.post([this, goal] { tell(request_of(telepresence::withdrawal_id(goal), RequestKind::cancel, goal)); });
   };
   office_ = std::make_shared<const telepresence::RobotOffice>(std::move(office));
   subscribe();
@@ -71,8 +70,8 @@ void RobotDesk::take(const docent_msgs::RequestBoard& board) {
   std::vector<telepresence::documents::RobotGoalState> goals;
   for (const docent_msgs::RequestState& entry : board.requests) {
     const auto state = parse<RequestStatus>(entry.state);
-    const bool is_goal = entry.request.kind == to_text(RequestKind::point) &&
-                         entry.request.source == to_text(RequestSource::staff);
+    const bool is_goal =
+        entry.request.kind == to_text(RequestKind::point) && entry.request.source == to_text(RequestSource::staff);
     if (is_goal && state) goals.push_back({entry.request.id, *state, entry.reason});
   }
   const std::scoped_lock lock{mutex_};

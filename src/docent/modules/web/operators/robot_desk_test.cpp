@@ -15,7 +15,8 @@ constexpr const char* kGoal = "01900000-0000-7000-8000-000000000001";
 class ARobotDesk : public testing::Test {
  protected:
   ARobotDesk() {
-    robot_->subscribe<docent_msgs::Request>(topics::kRequest, [this](const auto& request) { heard_.push_back(request); });
+    robot_->subscribe<docent_msgs::Request>(topics::kRequest,
+                                            [this](const auto& request) { heard_.push_back(request); });
   }
   void pass(double duration_s) { hub_.run_until(hub_.now() + seconds(duration_s)); }
   /// As the desk of /api/v1 does, from its thread.
