@@ -30,6 +30,16 @@ install(DIRECTORY ${DOCENT_BINARY_DIR}/idl/docent_msgs DESTINATION ${share} COMP
 install(FILES ${packaging}/docent_msgs/CMakeLists.txt ${generated}/package.xml DESTINATION ${share}/docent_msgs
   COMPONENT program)
 
+configure_file(${packaging}/docent_ros/package.xml.in ${generated}/docent_ros/package.xml @ONLY)
+install(DIRECTORY ${packaging}/docent_ros DESTINATION ${share} COMPONENT program
+  PATTERN package.xml.in EXCLUDE PATTERN library.txt EXCLUDE PATTERN __pycache__ EXCLUDE)
+install(FILES ${generated}/docent_ros/package.xml DESTINATION ${share}/docent_ros COMPONENT program)
+file(STRINGS ${packaging}/docent_ros/library.txt library_of_docent_ros)
+foreach(file IN LISTS library_of_docent_ros)
+  string(REGEX REPLACE "^(include|src)/(.*)/[^/]*$" "\\2" folder ${file})
+  install(FILES ${file} DESTINATION ${share}/docent_ros/library/${folder} COMPONENT program)
+endforeach()
+
 # Of what `system` needs, the build makes the manual, of what the program says of itself, and a robot.yaml in which all
 # defaults stand as comments. scripts/package builds docent_package_files; others need no help2man.
 add_custom_command(

@@ -66,8 +66,8 @@ std::string database_of(const ModuleContext& context, const WebParams& params) {
 }
 
 telepresence::WebServiceParts service_parts(const ModuleContext& context, const WebParams& params,
-                                            telepresence::WebStore store, telepresence::Desk* desk,
-                                            MuseumDesk* museum_desk, const std::string& gateway) {
+                                            telepresence::WebStore store, telepresence::Desk* desk, Offices& offices,
+                                            const std::string& gateway) {
   const interaction::SharedSound horn = interaction::horn_sound();
   telepresence::WebServiceParts parts;
   parts.store = std::move(store);
@@ -86,7 +86,10 @@ telepresence::WebServiceParts service_parts(const ModuleContext& context, const 
   parts.horn = {horn.file, horn.duration_s};
   parts.gateway = gateway;
   parts.seed = context.seed;
-  parts.operated = [museum_desk](const auto& document) { museum_desk->see(document); };
+  parts.operated = [&offices](const auto& document) {
+    offices.museum->see(document);
+    offices.robot->see(document);
+  };
   return parts;
 }
 
@@ -102,7 +105,7 @@ class WebModule final : public Module {
     const auto when =
         store->database->is_gone() ? telepresence::Database::Try::later : telepresence::Database::Try::now;
     auto desk = telepresence::Desk::open(where, params->api, params->forum, wall_clock, {}, offices.museum->office(),
-                                         offices.setup->office(), when);
+                                         offices.setup->office(), when, offices.robot->office());
     if (!desk) return tl::unexpected<Error>(desk.error());
     auto map = telepresence::encode_map_png(context.museum.map);
     if (!map) return tl::unexpected<Error>(map.error());
@@ -139,7 +142,7 @@ class WebModule final : public Module {
         offices_{std::move(offices)},
         desk_{std::move(desk)},
         robot_{context, "web/" + telepresence::make_token()},
-        service_{service_parts(context, params_, std::move(store), desk_.get(), offices_.museum.get(), robot_.name()),
+        service_{service_parts(context, params_, std::move(store), desk_.get(), offices_, robot_.name()),
                  context.museum,
                  robot_,
                  robot_.stop().button(),
@@ -243,7 +246,10 @@ class WebModule final : public Module {
       desk_->look();
     });
     bus_.every(seconds(params_.resend_s), [this] { service_.resend(bus_.now()); });
-    bus_.every(kOperationPeriod, [this] { service_.show_operation(); });
+    bus_.every(kOperationPeriod, [this] {
+      service_.show_operation();
+      offices_.robot->see(live_.map_from_base());
+    });
     bus_.every(kCountPeriod, [this] { service_.store_counts(hours(), server_->figures().http_requests, bus_.now()); });
     bus_.every(kTidyPeriod, [this] {
       service_.forget_old(bus_.now());

@@ -64,7 +64,7 @@ void Mission::break_off_to_charge(Time now) {
 void Mission::go_home(Time now) {
   if (activity_ == Activity::home || is_resting_ || now < home_not_before_) return;
   const Pose2 place = scheduler_.programme().home;
-  if (distance(position(), place.position()) <= params_.at_home_m) {
+  if (!params_.goes_home || distance(position(), place.position()) <= params_.at_home_m) {
     is_resting_ = true;
     return;
   }

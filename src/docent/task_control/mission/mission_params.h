@@ -25,7 +25,8 @@ struct MissionParams {
   /// 0..1: what makes the way to the charger worth while. An idle robot goes there when so much is missing; people
   /// who wait are served again when there is so much more than battery_low.
   double battery_gain = 0.25;
-  bool mingles = true;           ///< attracts people while it rests at home and nobody wants anything
+  bool goes_home = true;  ///< when nobody wants anything; false: it stays, for whoever sends it about from elsewhere
+  bool mingles = true;    ///< attracts people while it rests at home and nobody wants anything
   double mingle_pause_s = 30.0;  ///< [s] >= 0 between two phases: who listens may choose
   int vote_every = 3;            ///< >= 1: of so many tours one is the Web's, if there are votes ([Minerva2000] 6.4)
   double vote_idle_s = 120.0;    ///< [s] >= 0 after the first vote a robot at home gives it though it is not its turn
@@ -47,6 +48,7 @@ struct MissionParams {
     v("battery_soon", battery_soon);
     v("battery_full", battery_full);
     v("battery_gain", battery_gain);
+    v("goes_home", goes_home);
     v("mingles", mingles);
     v("mingle_pause_s", mingle_pause_s);
     v("vote_every", vote_every);

@@ -21,6 +21,25 @@ TEST_F(MissionTest, WakesUpFindsItselfAndStaysAtHome) {
   EXPECT_TRUE(happened(EventKind::relocalizing) && happened(EventKind::localized));
 }
 
+TEST_F(MissionTest, ARobotThatIsSentAboutStaysWhereItIs) {
+  params.goes_home = false;
+  make({});
+  robot = {5, 5};
+  pass(2.0);
+  mission->submit({"fleet", {}, RequestSource::staff, "", RequestKind::point, "8,5,1.57", -1, "en"}, time());
+  EXPECT_EQ(mission->task().kind, TaskKind::point);
+  EXPECT_NEAR(mission->task().map_from_base.theta.radians(), 1.57, 1e-9);
+  report(TaskStatus::done);
+  robot = {8, 5};
+  EXPECT_EQ(status_of("fleet"), RequestStatus::fulfilled);
+  pass(60.0);
+  EXPECT_EQ(mission->task().id, "");
+  EXPECT_EQ(phase(), MissionPhase::idle);
+  battery(0.5);
+  pass(1.0);
+  EXPECT_EQ(mission->task().kind, TaskKind::charge) << "it charges nevertheless";
+}
+
 TEST_F(MissionTest, GoesHomeFromWhereItWokeUp) {
   robot = {4, 4};
   pass(5.0);

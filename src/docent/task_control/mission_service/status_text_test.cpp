@@ -62,7 +62,7 @@ TEST(StatusText, WhatKeepsItFromChargingIsSaidWhereItMatters) {
 }
 
 TEST(StatusText, PointsAndRoomsAreNoExhibits) {
-  const std::string point = point_name({1.0, 2.0});
+  const std::string point = point_name({{1.0, 2.0}});
   EXPECT_EQ(sentence_of(to_place(MissionPhase::driving, point)), Sentence::to_point);
   EXPECT_EQ(sentence_of(to_place(MissionPhase::explaining, point)), Sentence::at_point);
   EXPECT_EQ(sentence_of(to_place(MissionPhase::driving, "clocks")), Sentence::driving);

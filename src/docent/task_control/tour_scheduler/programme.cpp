@@ -56,22 +56,33 @@ std::string place_at(const Programme& programme, Point2 position) {
   return name;
 }
 
-std::optional<Point2> point_of(const std::string& target) {
+std::optional<PointWish> point_of(const std::string& target) {
   constexpr double kFarthest = 10'000.0;  // [m]
+  constexpr double kLargest = 100.0;      // [rad]
   double x = 0.0;
   double y = 0.0;
-  int used = 0;
-  if (std::sscanf(target.c_str(), "%lf,%lf%n", &x, &y, &used) != 2 || static_cast<std::size_t>(used) != target.size())
-    return std::nullopt;
+  double heading = 0.0;
+  int point = 0;
+  int pose = 0;
+  const int numbers = std::sscanf(target.c_str(), "%lf,%lf%n,%lf%n", &x, &y, &point, &heading, &pose);
+  const auto used = static_cast<std::size_t>(numbers == 3 ? pose : point);
+  if (numbers < 2 || used != target.size()) return std::nullopt;
   if (!(std::abs(x) < kFarthest && std::abs(y) < kFarthest)) return std::nullopt;
-  return Point2{x, y};
+  if (numbers == 2) return PointWish{{x, y}};
+  if (!(std::abs(heading) < kLargest)) return std::nullopt;
+  return PointWish{{x, y}, Angle::radians(heading)};
 }
 
-std::string point_name(Point2 place) {
-  char text[40];
+std::string point_name(const PointWish& wish) {
   // Adding zero turns -0.00 into 0.00.
-  std::snprintf(text, sizeof text, "%.2f,%.2f", std::round(100.0 * place.x) / 100.0 + 0.0,
-                std::round(100.0 * place.y) / 100.0 + 0.0);
+  const auto rounded = [](double value) { return std::round(100.0 * value) / 100.0 + 0.0; };
+  char text[60];
+  if (wish.heading) {
+    std::snprintf(text, sizeof text, "%.2f,%.2f,%.2f", rounded(wish.place.x), rounded(wish.place.y),
+                  rounded(wish.heading->radians()));
+  } else {
+    std::snprintf(text, sizeof text, "%.2f,%.2f", rounded(wish.place.x), rounded(wish.place.y));
+  }
   return text;
 }
 

@@ -38,10 +38,15 @@ struct ProgrammeExhibit {
   [[nodiscard]] SpokenLength length_in(const std::string& language) const;
 };
 
-/// Where a wish for a point on the map wants the robot: "x,y" [m], map; nullopt: it is no such text.
-[[nodiscard]] std::optional<Point2> point_of(const std::string& target);
-/// The same text for the same place, to the centimetre.
-[[nodiscard]] std::string point_name(Point2 place);
+/// Where a wish for a point on the map wants the robot.
+struct PointWish {
+  Point2 place;                    ///< [m], map
+  std::optional<Angle> heading{};  ///< to take there; nullopt: that in which it comes
+};
+/// "x,y" or "x,y,heading" [m, rad], map; nullopt: it is no such text.
+[[nodiscard]] std::optional<PointWish> point_of(const std::string& target);
+/// The same text for the same place, to the centimetre and the hundredth of a radian.
+[[nodiscard]] std::string point_name(const PointWish& wish);
 
 /// What the scheduler must know of a tour.
 struct ProgrammeTour {

@@ -16,8 +16,11 @@ class Points : public Scheduling {
 TEST(PointName, IsTheSameForTheSamePlace) {
   EXPECT_EQ(point_name(*point_of("3,4.5")), "3.00,4.50");
   EXPECT_EQ(point_name(*point_of("3.001,4.499")), "3.00,4.50");
-  EXPECT_EQ(point_name({-0.001, -2.0}), "0.00,-2.00");
-  for (const char* text : {"", "3", "3,", ",4", "3,4,5", "3,4 ", "x,4", "nan,1", "inf,1", "20000,1"})
+  EXPECT_EQ(point_name({{-0.001, -2.0}}), "0.00,-2.00");
+  EXPECT_EQ(point_name(*point_of("3,4.5,1.5708")), "3.00,4.50,1.57");
+  EXPECT_EQ(point_name(*point_of("3,4.5,-0.001")), "3.00,4.50,0.00");
+  for (const char* text : {"", "3", "3,", ",4", "3,4,", "3,4,5,6", "3,4,5 ", "3,4,x", "3,4,nan", "3,4,1e9", "3,4 ",
+                           "x,4", "nan,1", "inf,1", "20000,1"})
     EXPECT_FALSE(point_of(text)) << text;
 }
 
@@ -52,6 +55,27 @@ TEST_F(Points, OnlyInTheHoursOfTheWeb) {
   EXPECT_EQ(reason_of("p"), "only_in_web_hours");
   scheduler.submit({"operator", {}, RequestSource::staff, "", RequestKind::point, "3,3", -1, "en"}, conditions, {});
   EXPECT_EQ(state_of("operator"), "queued");
+}
+
+TEST_F(Points, TakeTheHeadingThatIsWishedFor) {
+  wish("p", RequestKind::point, "3,4,1.57", 0);
+  EXPECT_EQ(next(1), "3.00,4.00,1.57");
+  EXPECT_NEAR(scheduler.state().visit->map_from_base.theta.radians(), 1.57, 1e-9);
+  finish(true, 9);
+  EXPECT_EQ(state_of("p"), "fulfilled");
+  wish("q", RequestKind::point, "3,4", 10);
+  next(11);
+  EXPECT_NEAR(scheduler.state().visit->map_from_base.theta.radians(), std::atan2(4.0, 3.0), 1e-9)
+      << "without one it stays as it comes";
+}
+
+TEST_F(Points, OfTheStaffComeFirst) {
+  wish("visitor", RequestKind::point, "1,0", 0);
+  scheduler.submit({"fleet", {}, RequestSource::staff, "", RequestKind::point, "9,0,0", -1, "en"}, conditions,
+                   time_from_seconds(1));
+  EXPECT_EQ(next(2), "9.00,0.00,0.00");
+  finish(true, 9);
+  EXPECT_EQ(next(10), "1.00,0.00");
 }
 
 TEST_F(Points, WhereTheRobotCannotGetTo) {

@@ -17,21 +17,25 @@ void TourScheduler::keep_points() {
     if (!place || programme_.find_exhibit(request.target) != nullptr) continue;
     ProgrammeExhibit& point = programme_.exhibits.emplace_back();
     point.id = request.target;
-    point.pose = {place->x, place->y, {}};
+    const auto wish = request.kind == RequestKind::point ? point_of(request.target) : std::nullopt;
+    point.pose = {place->x, place->y, wish && wish->heading ? *wish->heading : Angle{}};
     point.speech_s = 0.0;
     point.is_point = true;
   }
 }
 
 std::optional<Point2> TourScheduler::place_of_wish(const VisitorRequest& request) const {
-  if (request.kind == RequestKind::point) return point_of(request.target);
+  if (request.kind == RequestKind::point) {
+    const auto wish = point_of(request.target);
+    return wish ? std::optional{wish->place} : std::nullopt;
+  }
   const ProgrammeRoom* room = programme_.rooms ? programme_.rooms().find(request.target) : nullptr;
   return room != nullptr ? std::optional{room->place} : std::nullopt;
 }
 
 void TourScheduler::name_place(VisitorRequest& request, Point2 robot) const {
   if (request.kind == RequestKind::point) {
-    if (const auto place = point_of(request.target)) request.target = point_name(*place);
+    if (const auto wish = point_of(request.target)) request.target = point_name(*wish);
   } else if (request.target == kNextRoom && programme_.rooms) {
     Point2 from = robot;
     Time latest{};

@@ -40,12 +40,15 @@ void TourScheduler::note_load(const VisitorRequest& newest, Time now) {
 
 const BoardEntry* TourScheduler::oldest_due(Time now) const {
   const BoardEntry* oldest = nullptr;
+  const BoardEntry* voted = nullptr;
   for (const BoardEntry& entry : state_.board.entries()) {
     if (entry.status != RequestStatus::queued || entry.not_before > now) continue;
-    if (entry.request.source == RequestSource::vote) return &entry;
+    // Who sends the robot to a place, like a fleet manager, counts on it.
+    if (entry.request.source == RequestSource::staff && is_place_wish(entry.request)) return &entry;
+    if (entry.request.source == RequestSource::vote && voted == nullptr) voted = &entry;
     if (oldest == nullptr) oldest = &entry;
   }
-  return oldest;
+  return voted != nullptr ? voted : oldest;
 }
 
 std::optional<std::string> TourScheduler::waiting_tour_to(const std::string& exhibit_id, Time now) const {
@@ -175,7 +178,9 @@ const std::optional<Visit>& TourScheduler::begin_visit(Point2 robot, Time now, d
     happenings_.push_back({EventKind::order_chosen, next.exhibit_id, joined(order, place_name)});
     const Point2 way = place_of(next) - robot;
     begin_visit_of(next, false, now);
-    if (state_.visit->is_point) state_.visit->map_from_base.theta = Angle::radians(std::atan2(way.y, way.x));
+    const auto wish = point_of(next.exhibit_id);
+    if (state_.visit->is_point && !(wish && wish->heading))
+      state_.visit->map_from_base.theta = Angle::radians(std::atan2(way.y, way.x));
   }
   return state_.visit;
 }

@@ -57,7 +57,8 @@ Desk::Desk(ApiServices store, ApiServices staff, ApiServices passwords, const Ap
 Result<std::unique_ptr<Desk>> Desk::open(const std::string& database, const ApiParams& params, const ForumParams& forum,
                                          Clock clock, const PasswordCost& cost,
                                          std::shared_ptr<const MuseumOffice> museum,
-                                         std::shared_ptr<const SetupOffice> setup, Database::Try when) {
+                                         std::shared_ptr<const SetupOffice> setup, Database::Try when,
+                                         std::shared_ptr<const RobotOffice> robot) {
   std::array<ApiServices, 3> services;
   for (ApiServices& each : services) {
     auto opened = ApiServices::open(database, params, forum, cost, when);
@@ -68,6 +69,7 @@ Result<std::unique_ptr<Desk>> Desk::open(const std::string& database, const ApiP
   auto& [store, staff, passwords] = services;
   staff.museum = std::move(museum);
   staff.setup = std::move(setup);
+  staff.robot = std::move(robot);
   std::unique_ptr<Desk> desk{
       new Desk{std::move(store), std::move(staff), std::move(passwords), params, forum, std::move(clock)}};
   if (auto learnt = desk->learn_places(desk->store_); !learnt && !desk->store_.database->is_gone())

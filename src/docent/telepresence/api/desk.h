@@ -25,12 +25,14 @@ class Desk final : public ApiDesk {
   /// @param museum  what operators may change; null: nothing. Only the desk's own thread uses it
   /// @param setup   where a museum is set up; null: nowhere. Likewise
   /// @param when    the database is tried first
+  /// @param robot   through which the robot is sent about; null: nobody does. Likewise
   [[nodiscard]] static Result<std::unique_ptr<Desk>> open(const std::string& database, const ApiParams& params,
                                                           const ForumParams& forum, Clock clock,
                                                           const PasswordCost& cost = {},
                                                           std::shared_ptr<const MuseumOffice> museum = nullptr,
                                                           std::shared_ptr<const SetupOffice> setup = nullptr,
-                                                          Database::Try when = Database::Try::now);
+                                                          Database::Try when = Database::Try::now,
+                                                          std::shared_ptr<const RobotOffice> robot = nullptr);
 
   void take(ApiRequest request, std::function<void(ApiReply)> answer) override;
   void admit(std::string token, std::function<void(Admitted)> answer) override;

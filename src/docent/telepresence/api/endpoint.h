@@ -21,6 +21,7 @@
 #include "docent/telepresence/forum/forum.h"
 #include "docent/telepresence/limits/call_limits.h"
 #include "docent/telepresence/museum_office/museum_office.h"
+#include "docent/telepresence/robot_office/robot_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 
 // One table says what /api/v1 answers; from it come the dispatcher, docs/openapi.json, the page's types and the test of
@@ -62,6 +63,7 @@ struct ApiServices {
   std::unique_ptr<Audit> audit;
   std::shared_ptr<const MuseumOffice> museum;  ///< null: no museum can be changed here
   std::shared_ptr<const SetupOffice> setup;    ///< null: no museum is set up here
+  std::shared_ptr<const RobotOffice> robot;    ///< null: nobody sends the robot about from here
   ApiParams params;
   [[nodiscard]] static Result<ApiServices> open(const std::string& database, const ApiParams& params,
                                                 const ForumParams& forum, const PasswordCost& cost,
@@ -114,6 +116,8 @@ struct Endpoint {
 [[nodiscard]] std::vector<Endpoint> audit_endpoints();
 /// Those that set one up.
 [[nodiscard]] std::vector<Endpoint> setup_endpoints();
+/// Those that send the robot about.
+[[nodiscard]] std::vector<Endpoint> robot_endpoints();
 /// A row of the table, without what it does.
 [[nodiscard]] Endpoint at(const char* method, const char* path, Rank least, const char* name, const char* summary,
                           std::vector<const char*> query = {});

@@ -279,6 +279,7 @@ std::vector<Endpoint> make_table() {
   for (Endpoint& each : audit_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : museum_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : setup_endpoints()) table.push_back(std::move(each));
+  for (Endpoint& each : robot_endpoints()) table.push_back(std::move(each));
   for (Endpoint& each : table) {
     const std::string_view name = each.name;
     each.is_dear = name == "login";

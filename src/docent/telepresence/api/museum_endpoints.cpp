@@ -1,5 +1,7 @@
 #include "docent/telepresence/api/endpoint.h"
+#include "docent/telepresence/client_message.h"
 #include "docent/telepresence/museum_office/museum_documents.h"
+#include "docent/telepresence/robot_office/robot_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 
 namespace docent::telepresence {
@@ -110,7 +112,50 @@ ApiAnswer<MuseumFaults> go(ApiCall& call, const documents::SetupWish& wish) {
   return MuseumFaults{std::move(*faults)};
 }
 
+// A robot that is sent about.
+
+constexpr const char* kNoRobot = "no robot is sent about here";
+
+ApiAnswer<documents::RobotState> read_robot(ApiCall& call, const Nothing& /*wish*/) {
+  const auto& office = call.services.robot;
+  if (!office) return refuse(ApiFault::not_found, kNoRobot);
+  return office->state();
+}
+
+ApiAnswer<Nothing> send_robot(ApiCall& call, const documents::RobotGoal& goal) {
+  const auto& office = call.services.robot;
+  if (!office) return refuse(ApiFault::not_found, kNoRobot);
+  if (std::string fault = fault_of(goal); !fault.empty()) return refuse(ApiFault::not_understood, std::move(fault));
+  office->drive(goal);
+  return Nothing{};
+}
+
+ApiAnswer<Nothing> withdraw_goal(ApiCall& call, const Nothing& /*wish*/) {
+  const auto& office = call.services.robot;
+  if (!office) return refuse(ApiFault::not_found, kNoRobot);
+  const std::string& goal = call.path.at("goal");
+  if (!is_uuid7(goal)) return refuse(ApiFault::not_understood, "the goal must be a UUID of version 7");
+  office->cancel(goal);
+  return Nothing{};
+}
+
 }  // namespace
+
+std::vector<Endpoint> robot_endpoints() {
+  const auto row = [](const char* method, const char* path, const char* name, const char* summary) {
+    return at(method, path, Rank::operator_, name, summary);
+  };
+  return {
+      endpoint<Nothing, documents::RobotState>(
+          row("GET", "/robot", "read_robot", "How the robot is, and what became of where it was sent"), read_robot),
+      endpoint<documents::RobotGoal, Nothing>(
+          row("PUT", "/robot/goal", "send_robot", "Sends the robot to a pose, before all wishes of visitors"),
+          send_robot),
+      endpoint<Nothing, Nothing>(
+          row("DELETE", "/robot/goal/{goal}", "withdraw_goal", "Takes that back: the robot does not go there any more"),
+          withdraw_goal),
+  };
+}
 
 std::vector<Endpoint> museum_endpoints() {
   return {

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "docent/modules/web/operators/museum_desk.h"
+#include "docent/modules/web/operators/robot_desk.h"
 #include "docent/modules/web/operators/setup_desk.h"
 #include "docent/telepresence/site.h"
 
@@ -13,9 +14,11 @@ struct Offices {
   explicit Offices(const ModuleContext& context)
       : site{std::make_shared<telepresence::Site>()},
         museum{std::make_unique<MuseumDesk>(context)},
+        robot{std::make_unique<RobotDesk>(context.bus)},
         setup{std::make_unique<SetupDesk>(context, *site)} {}
   std::shared_ptr<telepresence::Site> site;
   std::unique_ptr<MuseumDesk> museum;
+  std::unique_ptr<RobotDesk> robot;
   std::unique_ptr<SetupDesk> setup;
 };
 
