@@ -40,13 +40,11 @@ case "$*" in
       mkdir -p /var/$place/private/docent
       ln -sfn private/docent /var/$place/docent
     done
-    for folder in $(sed -n 's/^StateDirectory=//p' $unit); do mkdir -p /var/lib/private/$folder; done
     # systemd hands on the whole folder only where its top has another owner.
     [ "$(stat -c %u /var/lib/private/docent)" = $service ] || chown -R $service:$service /var/lib/private/docent
     chown -R $service:$service /var/cache/private/docent
     chmod 755 /var/lib/private /var/cache/private
-    before=$(sed -n 's/^ExecStartPre=+//p' $unit)
-    [ -z "$before" ] || $before || exit 1
+    while read -r before; do $before || exit 1; done < <(sed -n 's/^ExecStartPre=+//p' $unit)
     . /etc/default/docent
     command=$(sed -n 's/^ExecStart=//p' $unit | sed "s,%S,/var/lib,g; s,%C,/var/cache,g; s,\${MUSEUM},$MUSEUM,; s,\$OPTIONS,$OPTIONS,")
     setpriv --reuid $service --regid $service --clear-groups $command >/tmp/docent.log 2>&1 &
