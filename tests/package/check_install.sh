@@ -59,7 +59,7 @@ sed -i 's/^OPTIONS=.*/OPTIONS="--sim --crowd quiet"/' "$root/etc/default/docent"
 
 # The integrator's own museum: another name, other words.
 cp -r museums/bonn "$root/tmp/my-museum"
-sed -i 's/^name: .*/name: {en: "My own museum"}/; s/^languages: .*/languages: [en]/' "$root/tmp/my-museum/museum.yaml"
+sed -i 's/^name: .*/name: {en: "My own museum", de: "Mein Museum"}/' "$root/tmp/my-museum/museum.yaml"
 mkdir -p "$root/etc/ssl/private"
 quietly inside openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=museum.example -addext subjectAltName=DNS:museum.example \
   -keyout /etc/ssl/private/museum.key -out /etc/ssl/certs/museum.pem
@@ -88,6 +88,14 @@ page https://museum.example/api/v1/login -H 'Content-Type: application/json' -d 
 token=$(sed -n 's/.*"csrf":"\([^"]*\)".*/\1/p' /tmp/login.json)
 [ -n "$token" ] || { echo "no login: $(cat /tmp/login.json)"; exit 1; }
 grep -q 'TRUE' /tmp/jar || { echo "the cookie is not for https alone"; exit 1; }
+# The robot must stand while its museum changes: the stop button, as its keepers remember it over a restart.
+systemctl stop docent
+mkdir -p /var/lib/docent/stops
+for keeper in web robot avoid; do echo "1 stopped ada" >/var/lib/docent/stops/$keeper; done
+chown -R --reference=/var/lib/docent/. /var/lib/docent/stops
+systemctl start docent
+wait_for /api/museum.json "My own museum"
+sleep 5
 page https://museum.example/api/v1/museum -o /tmp/museum.json
 sed -E 's/"is_trial":(true|false),//; s/"home":\[[0-9.]+,/"home":[9.1,/' /tmp/museum.json >/tmp/changed.json
 page https://museum.example/api/v1/museum -X PUT -H "Docent-Csrf: $token" -H 'Content-Type: application/json' -d @/tmp/changed.json -o /tmp/put.json
