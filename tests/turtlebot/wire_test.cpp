@@ -92,7 +92,10 @@ TEST_F(Wire, BumpersAndCliffsComeAsEveryBaseTellsThem) {
     body.boxes.clear();
     body.holes.push_back({body.map_from_robot() * Point2{0.15, 0.05}, 0.05});
   });
-  EXPECT_TRUE(until([&] { return ring.segments.at(0) == 0 && lines.lines.size() == 1; }, 5.0));
+  EXPECT_TRUE(until([&] { return ring.segments.at(0) == 0 && lines.lines.size() == 2; }, 5.0));
+  ASSERT_EQ(lines.lines.size(), 2U);
+  EXPECT_GT(lines.lines[0].x1, 0.1F) << "the edge";
+  EXPECT_LT(lines.lines[1].x1, -0.2F) << "it has not driven yet, so it backs no farther";
   robot->with_body([](Body& body) { body.is_lifted = true; });
   EXPECT_TRUE(until([&] { return ring.segments.at(0) == 255; }, 5.0));
 }
