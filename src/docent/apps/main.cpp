@@ -1,4 +1,5 @@
 #include "docent/apps/config/config_command.h"
+#include "docent/apps/doctor/doctor_command.h"
 #include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
 #include "docent/apps/localize/calibrate_command.h"
@@ -30,8 +31,8 @@ int main(int argc, char** argv) {
        .groups = {{"Drive through a museum",
                    {with_robot(simulate_command::add_simulate_command, whole),
                     with_robot(simulate_command::add_explore_command, whole), up_command::add_up_command,
-                    web_account_command::add_web_account_command, state_command::add_state_command,
-                    gateway_command::add_gateway_command}},
+                    doctor_command::add_doctor_command, web_account_command::add_web_account_command,
+                    state_command::add_state_command, gateway_command::add_gateway_command}},
                   {"Make a museum",
                    {up_command::add_setup_command, museum_command::add_museum_command,
                     museum_command::add_office_command, museum_command::add_survey_command,

@@ -109,7 +109,10 @@ std::string idl_text(const MessageSchemas& schemas) {
 
 std::string dds_type_name(const std::string& type) {
   const auto [package, name] = split(type);
-  return package + "::msg::dds_::" + name + "_";
+  // Of messages msg, of what actions and services send action and srv.
+  const auto last = type.rfind('/');
+  const std::string kind = last > package.size() ? type.substr(package.size() + 1, last - package.size() - 1) : "msg";
+  return package + "::" + kind + "::dds_::" + name + "_";
 }
 
 }  // namespace docent

@@ -27,6 +27,9 @@ TEST(Schema, IdlEscapesKeywordsAndNamesArrays) {
   const std::string odometry = idl_text(message_schemas<nav_msgs::Odometry>());
   EXPECT_NE(odometry.find("typedef double PoseWithCovariance__covariance[36];"), std::string::npos) << odometry;
   EXPECT_EQ(dds_type_name("nav_msgs/msg/Odometry"), "nav_msgs::msg::dds_::Odometry_");
+  EXPECT_EQ(dds_type_name("std_msgs/Header"), "std_msgs::msg::dds_::Header_");
+  EXPECT_EQ(dds_type_name("irobot_create_msgs/action/Dock_SendGoal_Request"),
+            "irobot_create_msgs::action::dds_::Dock_SendGoal_Request_");
 }
 
 template <class T>

@@ -203,7 +203,9 @@ void DdsBus::post(std::function<void()> action) {
 }
 
 std::string DdsBus::wire_name(const TopicInfo& info) const {
-  return "rt/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
+  // A service's request is a topic, too, by ROS 2's rules for names.
+  const bool is_request = std::string_view{info.type->name}.ends_with("_Request");
+  return (is_request ? "rq/" : "rt/") + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
 }
 
 const TypeSupport* DdsBus::wire_support(const TopicInfo& info) const {

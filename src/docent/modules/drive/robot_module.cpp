@@ -1,6 +1,7 @@
 #include "docent/modules/drive/robot_module.h"
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/drive/create3_hazards.h"
 #include "docent/modules/drive/tf_odometry.h"
 #include "docent/modules/shared/stop_keeper.h"
 #include "docent/robot/watchdog.h"
@@ -13,10 +14,13 @@ namespace {
 struct RobotParams {
   double rate = 20.0;         ///< [Hz] of cmd_vel while no command comes; one that comes goes out at once
   double battery_low = 0.15;  ///< share of the charge below which the module calls itself degraded
+  bool create3 = false;       ///< the base is an iRobot Create 3, as a TurtleBot 4 has it: what it says of bumpers,
+                              ///< cliffs and wheels on hazard_detection is read as tactile and obstacle_lines
   template <class V>
   void visit(V& v) {
     v("rate", rate);
     v("battery_low", battery_low);
+    v("create3", create3);
   }
   [[nodiscard]] Result<void> validate() const {
     if (!(rate >= 5.0 && rate <= 200.0)) return fail("robot.rate must lie between 5 and 200 Hz");
@@ -37,6 +41,7 @@ class RobotModule final : public Module {
                 if (stop_.holds()) command_base();
               }} {
     publish_mounts(context.config.body());
+    if (params_.create3) create3_.emplace(bus_, context.config.body().radius);
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
       command_base();  // no command waits for a tick: people do not either
@@ -65,6 +70,8 @@ class RobotModule final : public Module {
       return {"degraded", "the base is commanded by " +
                               (others == 1 ? "another program" : std::to_string(others) + " other programs") +
                               ", too: cmd_vel"};
+    if (create3_)
+      if (std::string complaint = create3_->complaint(); !complaint.empty()) return {"degraded", std::move(complaint)};
     if (battery_ < params_.battery_low) return {"degraded", "the battery is low"};
     ModuleHealth health = stop_.health();
     if (from_tf_.is_needed() && health.reason.empty())
@@ -111,6 +118,7 @@ class RobotModule final : public Module {
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
   std::optional<transport::Publisher<nav_msgs::Odometry>> odometry_;  ///< once it has to make it of transforms
   TfOdometry from_tf_;
+  std::optional<Create3Hazards> create3_;  ///< of a base of this kind
   std::optional<Time> odometry_received_;
   float battery_ = 1.0F;
   StopKeeper stop_;  ///< last: it calls
@@ -122,6 +130,12 @@ Result<std::unique_ptr<Module>> make_robot(const ModuleContext& context) {
   auto params = context.config.section<RobotParams>("robot");
   if (!params) return tl::unexpected<Error>(params.error());
   return std::make_unique<RobotModule>(context, *params);
+}
+
+Result<bool> base_is_create3(const robot::RobotConfig& config) {
+  const auto params = config.section<RobotParams>("robot");
+  if (!params) return tl::unexpected<Error>(params.error());
+  return params->create3;
 }
 
 Result<robot::ParameterRows> parameters_of_robot(const robot::RobotConfig& config) {

@@ -5,6 +5,7 @@
 #include "docent/interaction/speech/sentences.h"
 #include "docent/interaction/speech/spoken_text.h"
 #include "docent/messages/conversions.h"
+#include "docent/modules/guide/drive_goals.h"
 #include "docent/modules/shared/battery.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golex/checkpoint.h"
@@ -50,7 +51,7 @@ class ExecutiveModule final : public Module {
         survives_{context.virtual_time ? Survives::process_death : Survives::power_failure},
         executive_{params, std::move(decomposition), std::move(memory), bus_.now()},
         fault_{std::move(fault)},
-        goal_{bus_.publisher(topics::kDriveGoal)},
+        goals_{bus_, params.docking.by_action},
         say_{bus_.publisher(topics::kSay)},
         state_{bus_.publisher(topics::kTaskState)},
         event_{bus_.publisher(topics::kEvent)},
@@ -89,22 +90,27 @@ class ExecutiveModule final : public Module {
         people.push_back({person.id, {person.x, person.y}, std::hypot(person.vx, person.vy)});
       executive_.people_report(people, bus_.now());
     });
-    bus_.subscribe<sensor_msgs::BatteryState>(
-        topics::kBattery, [this](const auto& battery) { executive_.charging_report(is_charging(battery)); });
+    bus_.subscribe<sensor_msgs::BatteryState>(topics::kBattery, [this](const auto& battery) { hear(battery); });
     bus_.subscribe<docent_msgs::Expression>(topics::kExpression, [this](const auto& expression) {
       executive_.mood_report(parse<Mood>(expression.mood).value_or(Mood::neutral), bus_.now());
     });
     bus_.every(kTaskPeriod, [this] {
+      goals_.tick(executive_);
       executive_.tick(bus_.now());
       flush();
     });
   }
 
   [[nodiscard]] ModuleHealth health() const override {
-    return fault_.empty() ? ModuleHealth{} : ModuleHealth{"degraded", fault_};
+    const std::string fault = fault_.empty() ? goals_.complaint() : fault_;
+    return fault.empty() ? ModuleHealth{} : ModuleHealth{"degraded", fault};
   }
 
  private:
+  void hear(const sensor_msgs::BatteryState& battery) {
+    if (!goals_.knows_contact()) executive_.charging_report(is_charging(battery));
+  }
+
   [[nodiscard]] task_control::ExecutiveTask to_task(const docent_msgs::Task& task) const {
     task_control::ExecutiveTask result;
     result.order = {
@@ -131,16 +137,7 @@ class ExecutiveModule final : public Module {
       auto saved = task_control::save_checkpoint(checkpoint_, executive_.memory(), map_, survives_);
       fault_ = saved ? "" : saved.error().message;
     }
-    if (actions.drive) {
-      docent_msgs::DriveGoal goal;
-      goal.id = actions.drive->id;
-      goal.x = actions.drive->map_from_base.x;
-      goal.y = actions.drive->map_from_base.y;
-      goal.theta = actions.drive->map_from_base.theta.radians();
-      goal.relocalize = actions.drive->relocalize;
-      goal.position_tolerance = actions.drive->position_tolerance;
-      goal_.publish(std::move(goal));
-    }
+    if (actions.drive) goals_.order(*actions.drive);
     for (task_control::Utterance& line : actions.utterances) {
       say_.publish({std::move(line.id), std::move(line.text), std::move(line.language), to_text(line.mood)});
     }
@@ -179,7 +176,7 @@ class ExecutiveModule final : public Module {
   Survives survives_;
   task_control::Executive executive_;
   std::string fault_;
-  transport::Publisher<docent_msgs::DriveGoal> goal_;
+  DriveGoals goals_;
   transport::Publisher<docent_msgs::Say> say_;
   transport::Publisher<docent_msgs::TaskState> state_;
   transport::Publisher<docent_msgs::Event> event_;

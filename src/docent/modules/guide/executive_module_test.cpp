@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "docent/modules/shared/module_bench.h"
+#include "docent/transport/create3_support.h"
 
 namespace docent::modules {
 namespace {
@@ -166,6 +167,101 @@ TEST_F(ExecutiveModule, SoundsTheHornBeforePeopleAndNotBeforeWhatTheMapHolds) {
   ASSERT_NE(step, steps.end()) << "the page and the report hear of it";
   EXPECT_EQ(step->goal_id, goal.id);
   EXPECT_EQ(step->count, 1);
+}
+
+/// The same with a base that docks by itself, which the test is.
+class ExecutiveOfADockingBase : public ExecutiveModule {
+ protected:
+  ExecutiveOfADockingBase() {
+    EXPECT_TRUE(config.set("executive.docking.by_action=true"));
+    world->subscribe<irobot_create_msgs::SendDockGoal>(topics::kSendDock, [this](const auto& wish) {
+      ++docks;
+      goal_id = wish.goal_id;
+    });
+    world->subscribe<irobot_create_msgs::SendUndockGoal>(topics::kSendUndock, [this](const auto& wish) {
+      ++undocks;
+      goal_id = wish.goal_id;
+    });
+  }
+  void dock_says(bool is_docked) {
+    dock.publish({{}, true, is_docked});
+    run(0.3);
+  }
+  void action_says(const transport::Publisher<action_msgs::GoalStatusArray>& action, std::int8_t status) {
+    action.publish({{{{{goal_id}, {}}, status}}});
+    run(0.3);
+  }
+  void order_charge(const std::string& id) {
+    docent_msgs::Task task;
+    task.id = id;
+    task.kind = "charge";
+    task.x = 7.0;
+    task.language = "en";
+    tasks.publish(task);
+    run(0.3);
+  }
+  transport::Publisher<irobot_create_msgs::DockStatus> dock = world->publisher(topics::kDockStatus);
+  transport::Publisher<action_msgs::GoalStatusArray> docking = world->publisher(topics::kDockGoals);
+  transport::Publisher<action_msgs::GoalStatusArray> undocking = world->publisher(topics::kUndockGoals);
+  std::array<std::uint8_t, 16> goal_id{};
+  int docks = 0, undocks = 0;
+};
+
+TEST_F(ExecutiveOfADockingBase, LeavesItsDockBeforeItDrives) {
+  start();
+  dock_says(true);
+  run(3.0);
+  EXPECT_EQ(undocks, 0) << "nobody wants it elsewhere";
+  order_visit("t1");
+  run(0.5);
+  EXPECT_EQ(undocks, 1);
+  EXPECT_EQ(goal.id, "") << "the goal waits";
+  action_says(undocking, action_msgs::GoalStatus::kExecuting);
+  dock_says(false);
+  EXPECT_EQ(goal.id, "") << "the base still moves by itself";
+  action_says(undocking, action_msgs::GoalStatus::kSucceeded);
+  EXPECT_EQ(goal.id.substr(0, 3), "t1/");
+  EXPECT_EQ(goal.x, 3.0);
+}
+
+TEST_F(ExecutiveOfADockingBase, DocksWhereItsChargerIsAndStaysThere) {
+  start();
+  dock_says(false);
+  order_charge("c1");
+  EXPECT_EQ(goal.x, 7.0);
+  EXPECT_EQ(docks, 0) << "not from here";
+  plan_says(goal.id, "arrived");
+  run(0.5);
+  EXPECT_EQ(docks, 1);
+  action_says(docking, action_msgs::GoalStatus::kExecuting);
+  EXPECT_EQ(goal.id, "") << "the base moves by itself";
+  run(20.0);
+  EXPECT_EQ(progress.state, "driving") << "it takes its time";
+  dock_says(true);
+  action_says(docking, action_msgs::GoalStatus::kSucceeded);
+  run(1.0);
+  EXPECT_EQ(progress.state, "done");
+  run(60.0);
+  EXPECT_EQ(docks, 1);
+  EXPECT_EQ(undocks, 0);
+  EXPECT_EQ(goal.id, "") << "it is not driven back to the place before its dock";
+}
+
+TEST_F(ExecutiveOfADockingBase, WhoStandsInItsDockAlreadyCharges) {
+  start();
+  dock_says(true);
+  order_charge("c1");
+  run(2.0);
+  EXPECT_EQ(progress.state, "done");
+  EXPECT_EQ(undocks + docks, 0);
+}
+
+TEST_F(ExecutiveOfADockingBase, ABaseThatSaysNothingOfItsDockIsNotDriven) {
+  start();
+  order_visit("t1");
+  run(5.0);
+  EXPECT_EQ(goal.id, "");
+  EXPECT_EQ(module->health().reason, "the base says nothing of its dock (dock_status)");
 }
 
 }  // namespace

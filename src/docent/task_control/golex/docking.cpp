@@ -67,7 +67,9 @@ Docking::Docking(const DockingParams& params, Pose2 map_from_charger, bool is_oc
 std::optional<Docking::Move> Docking::move() const {
   const Step* step = now_at();
   if (step == nullptr || step->move == nullptr) return std::nullopt;
-  const Pose2 charger_from_base{step->side * params_.stand_off_m, 0.0, {}};
+  // Who docks by itself looks at the dock from the museum's charger: it sets out anew from farther off.
+  const double side = params_.by_action ? -step->side : step->side;
+  const Pose2 charger_from_base{side * params_.stand_off_m, 0.0, {}};
   const bool is_beside = step->kind == Step::Kind::beside;
   return Move{step->move, map_from_charger_ * charger_from_base,
               is_beside ? params_.beside_tolerance : params_.closer_tolerance};
@@ -105,6 +107,10 @@ Docking::State Docking::step(const DockingView& view, Time now) {
   if (view.is_occupied) last_occupied_ = now;
   const bool is_waiting = step->move == nullptr;
   if (is_waiting && view.contact == Contact::made) return State::docked;
+  if (is_waiting && view.contact == Contact::coming) {
+    since_ = now;
+    return State::under_way;
+  }
   if (step->kind == Step::Kind::contact && stands_there_ && view.contact == Contact::unknown) return State::docked;
   if (!is_over(*step, view, now)) return State::under_way;
   if (step->kind == Step::Kind::contact && stands_there_ && view.contact == Contact::unheard)

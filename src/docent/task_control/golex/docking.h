@@ -23,6 +23,9 @@ struct DockingParams {
   double occupied_wait_s = 20.0;   ///< [s] > 0 that it then waits: who stands there may go
   double blocked_s = 8.0;          ///< [s] > 0 without progress that end a drive of an attempt
   double beside_tolerance = 0.28;  ///< [m] > 0: contacts may reach so far beside what stands there
+  bool by_action = false;          ///< the base docks and undocks by itself, by the actions /dock and /undock of
+                           ///< irobot_create_msgs. Then the museum's charger is the place before the dock, about
+                           ///< 0.5 m from standing in it and looking at it
   template <class V>
   void visit(V& v) {
     v("contact_s", contact_s);
@@ -34,6 +37,7 @@ struct DockingParams {
     v("occupied_wait_s", occupied_wait_s);
     v("blocked_s", blocked_s);
     v("beside_tolerance", beside_tolerance);
+    v("by_action", by_action);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -43,6 +47,7 @@ enum class Contact {
   unheard,  ///< nothing yet
   unknown,  ///< it never says whether it charges
   none,
+  coming,  ///< the base is docking by itself
   made,
 };
 

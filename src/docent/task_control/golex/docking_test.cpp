@@ -55,6 +55,19 @@ TEST_F(DockingTest, ABatteryThatChargesEndsIt) { EXPECT_EQ(pass(1.0, Contact::ma
 
 TEST_F(DockingTest, ABatteryThatNeverSaysIsBelieved) { EXPECT_EQ(pass(1.0, Contact::unknown), Docking::State::docked); }
 
+TEST_F(DockingTest, WhoDocksByItselfIsWaitedForAndSetsOutAnewFromFartherOff) {
+  EXPECT_EQ(pass(60.0, Contact::coming), Docking::State::under_way);
+  EXPECT_TRUE(moves.empty()) << "the base moves, and the robot does not";
+  EXPECT_EQ(pass(9.0, Contact::none), Docking::State::under_way);
+  EXPECT_TRUE(moves.empty()) << "its time begins when the base has given up";
+  DockingParams params;
+  params.by_action = true;
+  docking = Docking{params, kCharger, false, time()};
+  while (!docking.move() || docking.move()->name != "before") pass(0.25, Contact::none);
+  // The robot looks to where y grows, at the dock.
+  EXPECT_NEAR(docking.move()->map_from_base.y, 1.5 - params.stand_off_m, 1e-9);
+}
+
 TEST_F(DockingTest, ABatteryThatWasNotHeardYetMayStillSay) {
   EXPECT_EQ(pass(9.0, Contact::unheard), Docking::State::under_way);
   EXPECT_EQ(pass(2.0, Contact::unheard), Docking::State::docked) << "the robot has no gauge";

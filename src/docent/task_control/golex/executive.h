@@ -113,6 +113,14 @@ class Executive {
   void charging_report(std::optional<bool> is_charging) {
     contact_ = !is_charging ? Contact::unknown : *is_charging ? Contact::made : Contact::none;
   }
+  /// Likewise of a base that docks by itself, which knows more than its battery.
+  void contact_report(Contact contact) { contact_ = contact; }
+  /// It waits at the charger for a contact, or stands there with one: a base that docks by itself is to be docked.
+  [[nodiscard]] bool wants_contact() const;
+  /// It is on its way to the charger with a task that is over once it has a contact.
+  [[nodiscard]] bool is_on_way_to_charger() const;
+  /// Ends that way: the base stands in its dock already.
+  void stand_at_charger(Time now);
   /// The mood that the face shows: so the robot asks for the way. Counts for a second, then its own reckoning.
   void mood_report(Mood mood, Time now);
   /// All who are followed now.

@@ -106,6 +106,21 @@ void Executive::ask_for_way(Time now, int count) {
       {EventKind::asked_for_way, memory_.task.order.exhibit_id, "", static_cast<double>(count)});
 }
 
+bool Executive::wants_contact() const {
+  if (memory_.task.order.kind != TaskKind::charge) return false;
+  if (docking_) return !docking_->move();
+  return memory_.phase == Phase::done || (memory_.phase == Phase::running && !is_before_drive());
+}
+
+bool Executive::is_on_way_to_charger() const {
+  const Directive* driven = under_way(DirectiveKind::drive);
+  return memory_.task.order.kind == TaskKind::charge && driven != nullptr && driven->argument == "charger";
+}
+
+void Executive::stand_at_charger(Time now) {
+  if (is_on_way_to_charger()) arrive(*under_way(DirectiveKind::drive), now);
+}
+
 void Executive::begin_docking(Time now) {
   const bool is_occupied = goal_.id == drive_order().id && goal_.is_occupied;
   docking_.emplace(params_.docking, memory_.task.order.map_from_base, is_occupied, now);
