@@ -11,6 +11,7 @@ import subprocess
 from pathlib import Path
 
 from evaluation import crippled
+from evaluation.bounds import bounded
 from evaluation.keys import key_of
 from evaluation.reports import KINDS, computed_of, mean_speed, speedup_of, want_speedup
 from evaluation.tables import Verdict, print_table
@@ -79,7 +80,7 @@ def judge(cell, total, share, verdict):
     """@param share  of the exposure that is asked for"""
     contacts = sum(total["contacts"].values())
     hours = total["hours"]
-    verdict.want(f"{cell}: contacts", f"{contacts} in {total['km']:.2f} km, {total['passes']} passes within 1 m, "
+    verdict.want(f"{cell}: contacts", f"{bounded(contacts, total['km'], hours)}; {total['passes']} passes within 1 m, "
                  f"{total['bumped']} times bumped", contacts == 0)
     verdict.want(f"{cell}: area violations", total["area"], total["area"] == 0)
     verdict.want(f"{cell}: driven in an hour ({KM_AN_HOUR} km)", f"{total['km'] / hours:.2f} km at {total['speed']:.2f} m/s",

@@ -285,10 +285,13 @@ void SimulatedMuseum::Impl::publish_truth() {
   state.people.reserve(people.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
     const Person& person = people[i];
-    state.nearest_person_m = std::min(state.nearest_person_m, gap_to(i, pose.position()));
+    const double gap = gap_to(i, pose.position());
+    state.nearest_person_m = std::min(state.nearest_person_m, gap);
+    // As a disc that reaches as far towards the robot as they do.
+    const double radius = distance(person.position, pose.position()) - body_.params().radius - gap;
     state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
                             static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
-                            static_cast<float>(person.radius), instruments_.met(i) > 0});
+                            static_cast<float>(radius), instruments_.met(i) > 0});
     state.person_beams.push_back(static_cast<std::uint8_t>(std::min(instruments_.met(i), 255)));
   }
   tell(states_, std::move(state));
