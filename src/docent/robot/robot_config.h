@@ -29,7 +29,7 @@ struct Scanner {
   double rate = 10.0;         ///< [Hz] of a simulated one
   bool clockwise = false;     ///< likewise: its beams go round so
   std::string no_return =
-      "greatest";  ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
+      "greatest";        ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
   double height = 0.38;  ///< [m] above the floor; below the waist it sees legs, and people are wider than these
   template <class V>
   void visit(V& v) {

@@ -236,7 +236,7 @@ void Instruments::publish_odometry(Time now, std::size_t step, const Body& body)
   emit(Sensor::odom, odometry_, std::move(message), last_odom_, now);
 }
 
-void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Figure> people) {
+void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Posture> people) {
   const LaserParams& params = scanner.laser.params();
   const Plane& plane = planes_[scanner.plane];
   slice_.cut(people, plane.height, (pose * scanner.laser.base_from_scanner()).position(), params.max_range);
@@ -271,7 +271,7 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
 }
 
 void Instruments::publish_scans(Time now, std::size_t step, const Pose2& world_from_base,
-                                std::span<const Figure> people) {
+                                std::span<const Posture> people) {
   for (Scanner& scanner : scanners_)
     if (is_due(step, scanner.kind.rate)) publish_scan(now, scanner, world_from_base, people);
 }
@@ -296,7 +296,7 @@ double Instruments::left_out() const {
 }
 
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
-                                std::span<const Figure> people) {
+                                std::span<const Posture> people) {
   constexpr std::uint64_t kSlots = 40;  // 0.4 s
   const auto groups = static_cast<std::uint64_t>(ring_.groups());
   for (std::uint64_t turn = 0; turn < groups; ++turn) {
@@ -322,7 +322,7 @@ void Instruments::publish_ping(Time now, const Ping& ping) {
 }
 
 void Instruments::publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base,
-                                   std::span<const Figure> people) {
+                                   std::span<const Posture> people) {
   constexpr std::uint64_t kSlots = 20;  // 0.2 s
   const InfraredParams& params = infrared_.params();
   const auto count = static_cast<std::uint64_t>(params.count);
@@ -362,7 +362,7 @@ void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& seg
   emit(Sensor::tactile, tactile_, {{to_message(now), "base_link"}, segments, ++tactile_scan_}, last_tactile_, now);
 }
 
-bool Instruments::sees(const Pose2& world_from_base, std::size_t person, std::span<const Figure> people) const {
+bool Instruments::sees(const Pose2& world_from_base, std::size_t person, std::span<const Posture> people) const {
   Slice slice;
   return std::any_of(scanners_.begin(), scanners_.end(), [&](const Scanner& scanner) {
     const Pose2 world_from_scanner = world_from_base * scanner.laser.base_from_scanner();

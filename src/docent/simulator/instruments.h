@@ -43,11 +43,11 @@ class Instruments {
   /// When it is due. `step`: counts steps of 10 ms.
   void publish_odometry(Time now, std::size_t step, const Body& body);
   /// The scanners of which a sweep is due. `step`: counts steps of 10 ms.
-  void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Figure> people);
+  void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Posture> people);
   /// @param slot  counts steps of 10 ms: the sonars fire in groups of three, each every 0.4 s
-  void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Figure> people);
+  void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Posture> people);
   /// Each of the ring every 0.2 s, one or two a step of 10 ms.
-  void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Figure> people);
+  void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Posture> people);
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
@@ -57,7 +57,7 @@ class Instruments {
   /// [rad] that the lies of all scanners leave out of their last sweeps because something is near there.
   [[nodiscard]] double left_out() const;
   /// True when a ray of some scanner, within its field and its range, reaches a person past walls and other people.
-  [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Figure> people) const;
+  [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Posture> people) const;
 
  private:
   struct Scanner {
@@ -88,7 +88,7 @@ class Instruments {
   /// Whether it reaches a disc of the slice past those of others.
   [[nodiscard]] bool shows(const Scanner& scanner, const Pose2& world_from_scanner, std::size_t disc,
                            const Slice& slice) const;
-  void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Figure> people);
+  void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Posture> people);
   /// The plane of scanners that are mounted so high.
   [[nodiscard]] std::size_t plane_at(double height);
 

@@ -28,7 +28,7 @@ class Sight : public ::testing::Test {
   /// Somebody so far from the robot, in its frame [m].
   [[nodiscard]] static bool sees(const Instruments& instruments, Point2 somebody, std::vector<Point2> others = {}) {
     const Physique disc = one_disc(kRadius);
-    std::vector<Figure> people{{kRobot * somebody, {1.0, 0.0}, 0.0, &disc}};
+    std::vector<Posture> people{{kRobot * somebody, {1.0, 0.0}, 0.0, &disc}};
     for (const Point2 other : others) people.push_back({kRobot * other, {1.0, 0.0}, 0.0, &disc});
     return instruments.sees(kRobot, 0, people);
   }
@@ -102,7 +102,7 @@ TEST_F(Sight, AScannerSeesWhatIsAtItsHeight) {
   Physique table;  // one leg in the middle
   table.parts = {{{}, 0.05, 0.0, 0.7, 0.0, false}, {{}, 0.5, 0.7, 0.75, 0.0, false}};
   table.reach = 0.5;
-  const std::vector<Figure> people{{kRobot * Point2{2.0, 0.0}, {1.0, 0.0}, 0.0, &table}};
+  const std::vector<Posture> people{{kRobot * Point2{2.0, 0.0}, {1.0, 0.0}, 0.0, &table}};
   const auto robot = hub_.connect("robot");
   for (const double height : {0.1, 0.38, 0.72}) {
     Hardware hardware;

@@ -147,7 +147,7 @@ void SimulatedMuseum::Impl::step() {
   if (has_fallen_) body_.carry_to(before);
   if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
   people_.clear();
-  figures_.clear();
+  postures_.clear();
   beside_.clear();
   const Point2 centre = body_.pose().position();
   for (const Person& person : crowd_.people()) {
@@ -155,7 +155,7 @@ void SimulatedMuseum::Impl::step() {
     const Point2 offset = person.position - centre;
     if (std::max(std::abs(offset.x), std::abs(offset.y)) <= kBeside) beside_.push_back(people_.size());
     people_.push_back({person.position, person.radius});
-    figures_.push_back(person.figure());
+    postures_.push_back(person.posture());
   }
   touch();
   distance_ += distance(before.position(), body_.pose().position());
@@ -190,10 +190,10 @@ void SimulatedMuseum::Impl::touch() {
     press(touch.towards);
   }
   for (const std::size_t i : beside_) {
-    const double most = radius + figures_[i].physique->reach;
-    const Point2 apart = figures_[i].at - centre;
+    const double most = radius + postures_[i].physique->reach;
+    const Point2 apart = postures_[i].at - centre;
     if (dot(apart, apart) > 1.1 * most * most) continue;  // no root for most
-    const Disc part = nearest_part(figures_[i], centre, kRobotHeight);
+    const Disc part = nearest_part(postures_[i], centre, kRobotHeight);
     const double reach = radius + part.radius;
     const Point2 offset = part.centre - centre;
     const double away = norm(offset);
@@ -204,9 +204,9 @@ void SimulatedMuseum::Impl::touch() {
                {"people", "person-" + std::to_string(person.id), centre + radius * towards, towards,
                 -dot(person.velocity, towards), person.id});
     press(towards);
-    const double rest = crowd_.give_way(i, centre - (part.centre - figures_[i].at), reach);
+    const double rest = crowd_.give_way(i, centre - (part.centre - postures_[i].at), reach);
     if (rest > 0.0) centre = centre - rest * towards;  // wedged in: it is the robot that stops
-    people_[i].centre = figures_[i].at = crowd_.people()[i].position;
+    people_[i].centre = postures_[i].at = crowd_.people()[i].position;
   }
   if (!touches_.empty()) obstacles_.resolve(centre, radius, touches_);
   body_.correct(centre);
@@ -228,12 +228,12 @@ void SimulatedMuseum::Impl::watch_people() {
   const Point2 centre = body_.pose().position();
   const Point2 ahead = unit(body_.pose().theta);
   for (const std::size_t i : beside_) {
-    const Disc part = nearest_part(figures_[i], centre, kRobotHeight);
+    const Disc part = nearest_part(postures_[i], centre, kRobotHeight);
     const Point2 offset = part.centre - centre;
     const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + part.radius + 0.1;
     ContactLog::PersonSample sample{crowd_.people()[i].id, offset, part.radius, false};
     sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
-                      instruments_.sees(body_.pose(), i, figures_);
+                      instruments_.sees(body_.pose(), i, postures_);
     samples_.push_back(sample);
   }
   log_.watch(time_, body_, samples_);
@@ -241,10 +241,10 @@ void SimulatedMuseum::Impl::watch_people() {
 
 void SimulatedMuseum::Impl::publish() {
   instruments_.publish_odometry(time_, steps_, body_);
-  instruments_.publish_scans(time_, steps_, body_.pose(), figures_);
+  instruments_.publish_scans(time_, steps_, body_.pose(), postures_);
   if (cameras_) cameras_->step(time_, steps_, body_.pose(), body_.params().radius, crowd_.people());
-  instruments_.publish_sonar(time_, steps_, body_.pose(), figures_);
-  instruments_.publish_infrared(time_, steps_, body_.pose(), figures_);
+  instruments_.publish_sonar(time_, steps_, body_.pose(), postures_);
+  instruments_.publish_infrared(time_, steps_, body_.pose(), postures_);
   if (tactile_now_ != tactile_ || every(20)) {
     tactile_ = tactile_now_;
     instruments_.publish_tactile(time_, tactile_);
@@ -299,8 +299,8 @@ void SimulatedMuseum::Impl::publish_truth() {
 
 double SimulatedMuseum::Impl::gap_to(std::size_t person, Point2 centre) const {
   constexpr double kFar = 5.0;  // [m] where nobody asks for centimetres
-  const double apart = distance(figures_[person].at, centre);
-  const Disc part = apart > kFar ? people_[person] : nearest_part(figures_[person], centre, kRobotHeight);
+  const double apart = distance(postures_[person].at, centre);
+  const Disc part = apart > kFar ? people_[person] : nearest_part(postures_[person], centre, kRobotHeight);
   return distance(part.centre, centre) - part.radius - body_.params().radius;
 }
 

@@ -150,7 +150,7 @@ class SimulatedMuseum::Impl {
   Time phase_began_{};
   std::vector<Temporary> temporary_;
   std::vector<Disc> people_;         ///< the room that others leave each
-  std::vector<Figure> figures_;      ///< [people] as they stand
+  std::vector<Posture> postures_;    ///< [people] as they stand
   std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot
   std::vector<Touch> touches_;
   std::vector<ContactLog::PersonSample> samples_;

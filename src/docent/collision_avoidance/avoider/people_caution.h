@@ -3,10 +3,10 @@
 #include <optional>
 #include <span>
 
-#include "docent/collision_avoidance/avoider/unseen_bodies.h"
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/collision_avoidance/body/speed_near_people.h"
+#include "docent/collision_avoidance/body/unseen_bodies.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/collision_avoidance/obstacle_field/unmapped_places.h"
 

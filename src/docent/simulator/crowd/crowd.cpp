@@ -88,8 +88,7 @@ Person Crowd::new_person(double now) {
 
 void Crowd::build(Person& person) {
   constexpr double kOnWheels = 0.9;  // [m/s] with a pram, or in a wheelchair
-  person.physique =
-      draw_physique(params_.physique, {person.is_child, person.height, person.radius}, physique_rng_);
+  person.physique = draw_physique(params_.physique, {person.is_child, person.height, person.radius}, physique_rng_);
   person.radius = room_of(person.physique, person.radius);
   if (person.physique.aid == Aid::pram || person.physique.aid == Aid::wheelchair)
     person.preferred_speed = std::min(person.preferred_speed, kOnWheels);

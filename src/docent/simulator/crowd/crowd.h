@@ -124,7 +124,7 @@ class Crowd {
   void follow_track(Person& person, double now, double dt) const;
   /// How far [m] somebody's body reaches from their middle in the direction of the unit vector `towards`.
   [[nodiscard]] double reach_to(const Person& person, Point2 towards) const {
-    return params_.physique.bodies == Bodies::discs ? person.radius : reach_towards(person.figure(), towards);
+    return params_.physique.bodies == Bodies::discs ? person.radius : reach_towards(person.posture(), towards);
   }
   [[nodiscard]] bool ignores_robot(const Person& person) const {
     return person.ignores_robot && now_ >= person.bumped_until;

@@ -379,7 +379,7 @@ int touches_of(double heedless) {
     run.steps(0.1);
     for (const Person& person : run.crowd.people()) {
       EXPECT_EQ(person.is_heedless, heedless == 1.0);
-      const Disc part = nearest_part(person.figure(), run.robot.position, 1.2);
+      const Disc part = nearest_part(person.posture(), run.robot.position, 1.2);
       touches += distance(part.centre, run.robot.position) - part.radius - run.robot.radius < 0.03 ? 1 : 0;
     }
   }

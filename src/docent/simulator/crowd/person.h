@@ -34,7 +34,7 @@ enum class Activity {
 struct alignas(64) Person {
   Point2 position{};
   Point2 velocity{};
-  Point2 wanted{};  ///< velocity that they try to take
+  Point2 wanted{};                      ///< velocity that they try to take
   double radius = 0.25;                 ///< [m] the room that others leave them; their body may reach farther
   double room = 0.0;                    ///< [m] by which the clearance at `roomy_at` was more than this person needs
   Point2 roomy_at{};                    ///< where the clearance was looked up last
@@ -78,7 +78,7 @@ struct alignas(64) Person {
   double progress_at = 0.0;
 
   /// As they stand now. It must not outlive them.
-  [[nodiscard]] Figure figure() const { return {position, gait.facing(), gait.swing(), &physique}; }
+  [[nodiscard]] Posture posture() const { return {position, gait.facing(), gait.swing(), &physique}; }
 };
 
 /// What people see of the robot.

@@ -73,12 +73,12 @@ void add_pram(Physique& physique) {
 }
 
 void add_wheelchair(Physique& physique) {
-  physique.parts.push_back({{0.0, 0.0}, 0.26, 0.45, 1.3, 0.0, true});               // who sits in it
-  physique.parts.push_back({{-0.10, 0.0}, 0.20, 0.25, 0.55, 0.0, false});           // the seat's frame
+  physique.parts.push_back({{0.0, 0.0}, 0.26, 0.45, 1.3, 0.0, true});      // who sits in it
+  physique.parts.push_back({{-0.10, 0.0}, 0.20, 0.25, 0.55, 0.0, false});  // the seat's frame
   for (const double x : {-0.32, -0.12, 0.08})
-    add_pair(physique, {{x, 0.29}, 0.045, 0.0, 0.58, 0.0, false});                  // the large wheels
-  add_pair(physique, {{0.34, 0.10}, 0.065, 0.08, 0.52, 0.0, false});                // shins
-  add_pair(physique, {{0.46, 0.10}, 0.06, 0.05, 0.15, 0.0, false});                 // feet on their rests
+    add_pair(physique, {{x, 0.29}, 0.045, 0.0, 0.58, 0.0, false});    // the large wheels
+  add_pair(physique, {{0.34, 0.10}, 0.065, 0.08, 0.52, 0.0, false});  // shins
+  add_pair(physique, {{0.46, 0.10}, 0.06, 0.05, 0.15, 0.0, false});   // feet on their rests
 }
 
 void find_reach(Physique& physique) {
@@ -131,9 +131,9 @@ double room_of(const Physique& physique, double radius) {
 }
 
 void Gait::walk(Point2 velocity, double dt, const Physique& physique) {
-  constexpr double kStands = 0.15;      // [m/s] below: a shifted weight, no way to face
-  constexpr double kFullStride = 0.5;   // [m/s] from here on steps are full
-  constexpr double kDrawsIn = 0.6;      // [m/s] with which legs come together and apart
+  constexpr double kStands = 0.15;     // [m/s] below: a shifted weight, no way to face
+  constexpr double kFullStride = 0.5;  // [m/s] from here on steps are full
+  constexpr double kDrawsIn = 0.6;     // [m/s] with which legs come together and apart
   const double speed = norm(velocity);
   if (speed > kStands) {
     const double off = std::atan2(cross(facing_, velocity), dot(facing_, velocity));

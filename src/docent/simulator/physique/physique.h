@@ -29,20 +29,20 @@ struct PhysiqueParams {
 
 /// A piece of somebody, upright and round.
 struct BodyPart {
-  Point2 at;             ///< [m] from the middle of what they take up, facing +x
-  double radius = 0.25;  ///< [m]
-  double bottom = 0.0;   ///< [m] above the floor
-  double top = 2.0;      ///< [m]
-  double swing = 0.0;    ///< how far it goes with the left leg: 1 wholly, -1 with the right one, 0 stays with the body
+  Point2 at;              ///< [m] from the middle of what they take up, facing +x
+  double radius = 0.25;   ///< [m]
+  double bottom = 0.0;    ///< [m] above the floor
+  double top = 2.0;       ///< [m]
+  double swing = 0.0;     ///< how far it goes with the left leg: 1 wholly, -1 with the right one, 0 stays with the body
   bool is_trunk = false;  ///< large and soft: what sound comes back from
 };
 
 /// How somebody is built. Their parts move with them and, by their swing, with their legs.
 struct Physique {
   std::vector<BodyPart> parts;
-  double stance = 0.3;  ///< [m] between the feet of who walks, along the way
+  double stance = 0.3;     ///< [m] between the feet of who walks, along the way
   double turn_rate = 4.0;  ///< [rad/s] with which they turn at most
-  double reach = 0.25;  ///< [m] from their middle to the end of the farthest part, however they stand
+  double reach = 0.25;     ///< [m] from their middle to the end of the farthest part, however they stand
   Aid aid = Aid::none;
 };
 

@@ -40,8 +40,7 @@ TEST(Physique, LegsEndAHandBeforeTheBodyAheadAndToTheSides) {
   constexpr int kPeople = 500;
   for (int i = 0; i < kPeople; ++i) {
     const double height = rng.uniform(1.55, 1.95);
-    const Physique physique =
-        draw_physique(nothing_carried(), {false, height, rng.uniform(0.22, 0.28)}, rng);
+    const Physique physique = draw_physique(nothing_carried(), {false, height, rng.uniform(0.22, 0.28)}, rng);
     const Extent low = extent_at(physique, 0.3);
     const Extent high = extent_at(physique, 1.2);
     EXPECT_GE(low.ahead, 0.05);
@@ -63,12 +62,12 @@ TEST(Physique, EveryHeightOfALaserSeesEverybody) {
                           is_child ? rng.uniform(0.15, 0.18) : rng.uniform(0.22, 0.28)};
     const Physique physique = draw_physique({}, stature, rng);
     Slice slice;
-    const Figure figure{{2.0, 0.0}, unit(Angle::radians(rng.uniform(-3.0, 3.0))), 0.0, &physique};
+    const Posture posture{{2.0, 0.0}, unit(Angle::radians(rng.uniform(-3.0, 3.0))), 0.0, &physique};
     for (const double height : {0.1, 0.2, 0.38, 0.5, 0.9}) {
-      slice.cut({&figure, 1}, height, {}, 5.0);
+      slice.cut({&posture, 1}, height, {}, 5.0);
       EXPECT_FALSE(slice.discs().empty()) << "seed " << seed << " at " << height << " m";
     }
-    EXPECT_GE(physique.reach, reach_towards(figure, {1.0, 0.0}));
+    EXPECT_GE(physique.reach, reach_towards(posture, {1.0, 0.0}));
   }
 }
 

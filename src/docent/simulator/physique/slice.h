@@ -9,10 +9,10 @@
 namespace docent::simulator {
 
 /// Somebody as they stand now. Their physique must outlive it.
-struct Figure {
-  Point2 at;                    ///< [m], world: the middle of what they take up
-  Point2 facing{1.0, 0.0};      ///< unit vector
-  double swing = 0.0;           ///< [m] by which the left leg is ahead
+struct Posture {
+  Point2 at;                ///< [m], world: the middle of what they take up
+  Point2 facing{1.0, 0.0};  ///< unit vector
+  double swing = 0.0;       ///< [m] by which the left leg is ahead
   const Physique* physique = nullptr;
 
   /// Where a part of theirs is.
@@ -24,17 +24,17 @@ struct Figure {
 
 /// The part of somebody, below `height` [m], that is nearest to a point: where a body that is so high touches them.
 /// O(parts). Whose parts are all higher has none: their whole room counts.
-[[nodiscard]] Disc nearest_part(const Figure& figure, Point2 from, double height);
+[[nodiscard]] Disc nearest_part(const Posture& posture, Point2 from, double height);
 /// How far [m] somebody reaches from their middle in the direction of the unit vector `towards`.
-[[nodiscard]] double reach_towards(const Figure& figure, Point2 towards);
+[[nodiscard]] double reach_towards(const Posture& posture, Point2 towards);
 
 /// What of the people round a sensor it can meet.
 class Slice {
  public:
   /// What is cut at a height [m] above the floor, of those within `reach` [m] of `from`. O(people + parts).
-  void cut(std::span<const Figure> people, double height, Point2 from, double reach);
+  void cut(std::span<const Posture> people, double height, Point2 from, double reach);
   /// What sound comes back from, whatever its height.
-  void cut_trunks(std::span<const Figure> people, Point2 from, double reach);
+  void cut_trunks(std::span<const Posture> people, Point2 from, double reach);
 
   [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
   /// [discs] indices of the people whose they are, rising.
@@ -42,7 +42,7 @@ class Slice {
 
  private:
   template <class Takes>
-  void gather(std::span<const Figure> people, Point2 from, double reach, const Takes& takes);
+  void gather(std::span<const Posture> people, Point2 from, double reach, const Takes& takes);
 
   std::vector<Disc> discs_;
   std::vector<std::uint32_t> persons_;

@@ -20,8 +20,8 @@ Physique plain() {
 
 TEST(Slice, CutsWhatStandsAtItsHeight) {
   const Physique physique = plain();
-  const std::array<Figure, 2> people{Figure{{2.0, 0.0}, {0.0, 1.0}, 0.15, &physique},
-                                     Figure{{30.0, 0.0}, {0.0, 1.0}, 0.0, &physique}};
+  const std::array<Posture, 2> people{Posture{{2.0, 0.0}, {0.0, 1.0}, 0.15, &physique},
+                                      Posture{{30.0, 0.0}, {0.0, 1.0}, 0.0, &physique}};
   Slice slice;
   slice.cut(people, 0.38, {}, 10.0);
   ASSERT_EQ(slice.discs().size(), 2U) << "who is far is left out";
@@ -41,11 +41,12 @@ TEST(Slice, CutsWhatStandsAtItsHeight) {
 
 TEST(Slice, ABodyMeetsWhatIsNearestOfThemBelowItsTop) {
   const Physique physique = plain();
-  const Figure figure{{1.0, 0.0}, {1.0, 0.0}, 0.0, &physique};
-  EXPECT_EQ(nearest_part(figure, {0.0, 0.0}, 1.2).radius, 0.2) << "the trunk";
-  EXPECT_EQ(nearest_part(figure, {0.0, 0.0}, 0.5).radius, 0.06) << "a low robot meets legs";
-  EXPECT_NEAR(reach_towards(figure, {1.0, 0.0}), 0.2, 1e-12);
-  EXPECT_NEAR(reach_towards({{1.0, 0.0}, {1.0, 0.0}, 0.3, &physique}, {1.0, 0.0}), 0.36, 1e-12) << "a leg in mid-stride";
+  const Posture posture{{1.0, 0.0}, {1.0, 0.0}, 0.0, &physique};
+  EXPECT_EQ(nearest_part(posture, {0.0, 0.0}, 1.2).radius, 0.2) << "the trunk";
+  EXPECT_EQ(nearest_part(posture, {0.0, 0.0}, 0.5).radius, 0.06) << "a low robot meets legs";
+  EXPECT_NEAR(reach_towards(posture, {1.0, 0.0}), 0.2, 1e-12);
+  EXPECT_NEAR(reach_towards({{1.0, 0.0}, {1.0, 0.0}, 0.3, &physique}, {1.0, 0.0}), 0.36, 1e-12)
+      << "a leg in mid-stride";
 }
 
 }  // namespace

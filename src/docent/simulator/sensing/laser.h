@@ -35,7 +35,7 @@ class LaserScanner {
   LaserScanner(const LaserParams& params, const Pose2& base_from_nominal, Rng rng);
 
   struct Sweep {
-    std::vector<float> ranges;          ///< [m], one a beam
+    std::vector<float> ranges;        ///< [m], one a beam
     std::vector<std::int32_t> discs;  ///< index of the disc each beam ideally ends on, -1 for none
   };
   /// Takes one scan. @param discs  what of people is in its plane; any order. O(beams * cells + discs).

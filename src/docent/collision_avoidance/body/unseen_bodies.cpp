@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/avoider/unseen_bodies.h"
+#include "docent/collision_avoidance/body/unseen_bodies.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "docent/collision_avoidance/avoider/unseen_bodies.h"
+#include "docent/collision_avoidance/body/unseen_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ TEST(UnseenBodies, ALaserAtTheWaistSeesThemWhole) {
 
 TEST(UnseenBodies, NamesWhatCannotBe) {
   EXPECT_TRUE(UnseenBodyParams{}.validate());
-  EXPECT_EQ(UnseenBodyParams{.ahead = -0.1}.validate().error().message, "avoid.body.ahead must lie between 0 and 0.5 m");
+  EXPECT_EQ(UnseenBodyParams{.ahead = -0.1}.validate().error().message,
+            "avoid.body.ahead must lie between 0 and 0.5 m");
   EXPECT_FALSE(UnseenBodyParams{.aside = 0.6}.validate());
   EXPECT_FALSE(UnseenBodyParams{.waist = 3.0}.validate());
 }
