@@ -103,7 +103,6 @@ TEST_F(Sight, AScannerSeesWhatIsAtItsHeight) {
   table.parts = {{{}, 0.05, 0.0, 0.7, 0.0, false}, {{}, 0.5, 0.7, 0.75, 0.0, false}};
   table.reach = 0.5;
   const std::vector<Posture> people{{kRobot * Point2{2.0, 0.0}, {1.0, 0.0}, 0.0, &table}};
-  const auto robot = hub_.connect("robot");
   for (const double height : {0.1, 0.38, 0.72}) {
     Hardware hardware;
     hardware.scanners.front().height = height;
