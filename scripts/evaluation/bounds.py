@@ -21,7 +21,7 @@ def rate(count, exposure, unit):
     """"at most 8.1 a km (95 %)", for a count seen in so much exposure."""
     if exposure <= 0.0:
         return f"no {unit} to tell by"
-    return f"at most {most(count) / exposure:.2g} a {unit} ({100 * CONFIDENCE:.0f} %)"
+    return f"at most {most(count) / exposure:.2g} {'an' if unit == 'hour' else 'a'} {unit} ({100 * CONFIDENCE:.0f} %)"
 
 
 def bounded(count, km, hours=None):
