@@ -1,5 +1,6 @@
 """Tours in Bonn with other bases than the papers': one scanner in front and nothing else, and sonars alone; the full robot beside
 them; and crippled ones."""
+from evaluation.bounds import bounded
 from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
 from evaluation.tour import served_of
@@ -41,7 +42,7 @@ def protocol(simulations, options):
             continue
         km, passes = sum(r["distance_m"] for r in reports) / 1000, sum(r["passes_within_1m"] for r in reports)
         contacts, violations = sum(map(contacts_of, reports)), sum(r["area_violations"] for r in reports)
-        verdict.want(f"{base}, {crowd}: contacts", f"{contacts} in {km:.2f} km, {passes} passes within 1 m", contacts == 0)
+        verdict.want(f"{base}, {crowd}: contacts", f"{bounded(contacts, km)}; {passes} passes within 1 m", contacts == 0)
         verdict.want(f"{base}, {crowd}: area violations", f"{violations}", violations == 0)
         explained = [r["exhibits_explained"] for r in reports]
         verdict.want(f"{base}, {crowd}: driven (0.02 km a run)", f"{km:.2f} km", km >= 0.02 * len(reports))

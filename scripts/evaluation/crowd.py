@@ -13,6 +13,7 @@ import statistics
 import subprocess
 import sys
 
+from evaluation.bounds import bounded
 from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
 
@@ -100,7 +101,7 @@ def judge(ours, plain, least_trials):
                  f"{closing:.2f} s and {theirs:.2f} s", theirs > 0 and closing <= INTIMATE_SHARE * theirs)
     km = sum(r["path_m"] for r in ours) / 1000
     verdict.want("it pushes nobody and touches nothing",
-                 f"{contacts(ours)} contacts in {km:.2f} km, {sum(r['density_passed'] * r['path_m'] for r in ours) / km / 1000:.2f} "
+                 f"contacts: {bounded(contacts(ours), km)}; {sum(r['density_passed'] * r['path_m'] for r in ours) / km / 1000:.2f} "
                  "persons a m2 on its way", contacts(ours) == 0)
     density = mean(ours + plain, "density")
     verdict.want("persons a m2 of free floor", f"{density:.2f}", abs(density - DENSITY) < 0.02)
@@ -115,7 +116,7 @@ def slice_verdict(ours):
     verdict = Verdict()
     arrived = sum(r["arrived"] for r in ours)
     verdict.want("this robot arrives in most trials", f"{arrived} of {len(ours)}", arrived >= 0.75 * len(ours))
-    verdict.want("contacts", f"{contacts(ours)} in {sum(r['path_m'] for r in ours):.0f} m", contacts(ours) == 0)
+    verdict.want("contacts", bounded(contacts(ours), sum(r["path_m"] for r in ours) / 1000), contacts(ours) == 0)
     return verdict
 
 

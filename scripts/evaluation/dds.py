@@ -14,6 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from evaluation.bounds import bounded
 from evaluation.programs import laboratory
 from evaluation.reports import contacts_of
 
@@ -97,7 +98,7 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     requests = result["requests"]
     localized = result["localization"]["localized_after_s"]
     verdict.want("ran", f"{result['virtual_seconds']:.0f} s", result["virtual_seconds"] >= 0.95 * 60 * minutes)
-    verdict.want("contacts", f"{contacts} in {result['distance_m']:.0f} m, {result['passes_within_1m']} passes within 1 m",
+    verdict.want("contacts", f"{bounded(contacts, result['distance_m'] / 1000)}; {result['passes_within_1m']} passes within 1 m",
                  contacts == 0 and result["distance_m"] > 5.0 * minutes)
     verdict.want("area violations", f"{result['area_violations']}", result["area_violations"] == 0)
     verdict.want("localized within 5 minutes", f"{localized} s", localized is not None and localized <= 300)
@@ -108,7 +109,7 @@ def protocol(docent, root, cache, minutes, seed, verdict):
     verdict.want("the same mission events in the same order when replayed", f"exit {replay.returncode}", replay.returncode == 0)
     want_in_time(result, "alone", verdict)
     beside, _ = run(docent, root, cache, minutes, seed, "beside", is_busy=True)
-    verdict.want("beside another program: contacts", f"{contacts_of(beside)} in {beside['distance_m']:.0f} m",
+    verdict.want("beside another program: contacts", bounded(contacts_of(beside), beside["distance_m"] / 1000),
                  contacts_of(beside) == 0 and beside["distance_m"] > 5.0 * minutes)
     want_in_time(beside, "beside another program", verdict)
     plain, _ = run(docent, root, cache, min(minutes, 4), seed, "plain", is_busy=True, more=NOT_URGENT)

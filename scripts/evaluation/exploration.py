@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from evaluation.bounds import bounded
 from evaluation import floor_plans
 from evaluation.programs import laboratory, program_for
 from evaluation.tables import Verdict, print_table
@@ -90,7 +91,7 @@ def judge(verdict, kind, people, runs):
     contacts = sum(map(contacts_of, runs))
     verdict.want(f"{name}: covered, worst run (98 %)", f"{100 * covered:.2f} % of the floor that can be seen; {exposure}", covered >= COVERED)
     verdict.want(f"{name}: time, longest run ({most:g} min)", f"{minutes:.1f} min", minutes <= most)
-    verdict.want(f"{name}: contacts (0)", f"{contacts} in {exposure}", contacts == 0)
+    verdict.want(f"{name}: contacts (0)", f"{bounded(contacts, sum(run['exploration']['way_m'] for run in runs) / 1000)}; {len(runs)} runs", contacts == 0)
     verdict.want(f"{name}: walls, worst run (5 cm)", f"{100 * walls:.1f} cm", walls <= WALLS)
     verdict.want(f"{name}: ghosts, worst run (0.1 %)", f"{100 * ghosts:.3f} % of the free cells", ghosts <= GHOSTS)
 

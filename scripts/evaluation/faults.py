@@ -16,6 +16,7 @@ import random
 import statistics
 import subprocess
 
+from evaluation.bounds import bounded
 from evaluation.programs import program_for
 from evaluation.simulations import side_by_side
 from evaluation.tables import Verdict, print_table
@@ -271,7 +272,7 @@ def protocol(bench, options):
     print()
     struck_share = len(outcomes) / len(plan)
     verdict.want("runs that drove when they were struck", f"{len(outcomes)} of {len(plan)}", struck_share >= 0.75)
-    verdict.want("touched in all runs with a fault", f"{sum(o.touched for o in outcomes):.0f} in {sum(o.km for o in outcomes):.2f} km, "
+    verdict.want("touched in all runs with a fault", f"{bounded(int(sum(o.touched for o in outcomes)), sum(o.km for o in outcomes), sum(o.hours for o in outcomes))}; "
                  f"{sum(o.hours for o in outcomes):.1f} h, {sum(o.passes for o in outcomes)} passes within 1 m; people bumped into it "
                  f"{sum(o.bumps for o in outcomes):.0f} times", not any(o.touched for o in outcomes))
     alarms = [alarm for rows in watched for alarm in alarms_of(rows)]

@@ -9,6 +9,7 @@ import math
 import shutil
 from pathlib import Path
 
+from evaluation.bounds import bounded
 from evaluation.safety import data_folder
 from evaluation.tables import Verdict, print_table
 
@@ -88,7 +89,7 @@ def protocol(explorations, root, options):
         verdict.want(f"{name}, seed {seed}: covered ({100 * COVERED:g} %)", f"{100 * run['covered']:.2f} % of {run['floor_m2']:.0f} m2; {exposure}",
                      run["covered"] >= COVERED)
         verdict.want(f"{name}, seed {seed}: ends at home", told["warning"] or "yes", not told["warning"])
-        verdict.want(f"{name}, seed {seed}: touches (0)", f"{contacts} in {exposure}", contacts == 0 and told["way_m"] > 20.0)
+        verdict.want(f"{name}, seed {seed}: touches (0)", f"{bounded(contacts, told['way_m'] / 1000)}; {told['minutes']:.1f} min", contacts == 0 and told["way_m"] > 20.0)
         verdict.want(f"{name}, seed {seed}: places tried twice in vain (0)", f"{len(again)} of {len(stands)} stands {again or ''}; {exposure}", not again)
     print_table(["plan", "seed", "min", "m", "covered %", "floor m2", "stands", "twice", "contacts", "outside"], rows)
     print()

@@ -11,6 +11,7 @@ alarms. A robot without watches must fail.
 import random
 import statistics
 
+from evaluation.bounds import bounded
 from evaluation.faults import CRIPPLED, Bench as FaultBench, count_passes, moments, seconds
 from evaluation.tables import Verdict, print_table
 
@@ -187,7 +188,7 @@ def protocol(bench, options):
                      bool(outcomes) and touched == 0 and not late)
     print_table(HEADER, table)
     print()
-    verdict.want("touched in all runs with a lie", f"{sum(o.touched for o in everything):.0f} in {sum(o.km for o in everything):.2f} km, "
+    verdict.want("touched in all runs with a lie", f"{bounded(int(sum(o.touched for o in everything)), sum(o.km for o in everything))}, "
                  f"{sum(o.hours for o in everything):.1f} h, {sum(o.passes for o in everything)} passes within 1 m; people bumped into it "
                  f"{sum(o.bumps for o in everything):.0f} times", not any(o.touched for o in everything))
     if not options.part:

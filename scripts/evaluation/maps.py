@@ -5,6 +5,7 @@ blocked; in both it serves what is asked for and touches nothing. A map that is 
 """
 import subprocess
 
+from evaluation.bounds import bounded
 from evaluation.keys import key_of
 from evaluation.reports import KINDS, contacts_of
 from evaluation.safety import data_folder
@@ -53,7 +54,7 @@ def judge(museum, crowd, reports, verdict):
     total = sum_of(reports)
     cell = f"{museum}, {crowd}"
     driven = f"{total['km']:.2f} km in {total['hours']:.2f} h"
-    verdict.want(f"{cell}: contacts", f"{total['contacts']} in {driven}", total["contacts"] == 0)
+    verdict.want(f"{cell}: contacts", bounded(total["contacts"], total["km"], total["hours"]), total["contacts"] == 0)
     verdict.want(f"{cell}: area violations", f"{total['area']} in {driven}", total["area"] == 0)
     share = total["blocked"] / max(1e-9, total["travel"])
     seen = f"{100 * share:.1f} % of {total['travel']:.0f} s"

@@ -6,6 +6,7 @@ import math
 import statistics
 from pathlib import Path
 
+from evaluation.bounds import bounded
 from evaluation import figures
 from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
@@ -121,7 +122,7 @@ def judge(verdict, crowd, with_moods, without, is_slice=False):
     for moods, reports in (("on", with_moods), ("off", without)):
         km = sum(report["distance_m"] for report in reports) / 1000
         contacts = sum(map(contacts_of, reports))
-        verdict.want(f"{crowd}, {moods}: contacts", f"{contacts} in {km:.2f} km, {sum(r['passes_within_1m'] for r in reports)} passes "
+        verdict.want(f"{crowd}, {moods}: contacts", f"{bounded(contacts, km)}; {sum(r['passes_within_1m'] for r in reports)} passes "
                      "within 1 m", contacts == 0)
         asked = sum(report["asked_for_way"] for report in reports)
         least = 1 if is_slice else len(reports)

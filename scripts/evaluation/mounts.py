@@ -13,6 +13,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from evaluation.bounds import bounded
 from evaluation import right_mounts
 from evaluation.programs import laboratory, program_for
 from evaluation.simulations import side_by_side
@@ -167,7 +168,7 @@ def evaluate_mounts(simulations, verdict, options):
     km = sum(outcome.km for outcome in outcomes)
     exposure = f"{len(outcomes)} runs, {km:.2f} km"
     hazards = sum(outcome.hazards for outcome in outcomes)
-    verdict.want("contacts with marked hazards (0)", f"{hazards} in {exposure}", hazards == 0 and km > 0)
+    verdict.want("contacts with marked hazards (0)", f"{bounded(hazards, km)}; {len(outcomes)} runs", hazards == 0 and km > 0)
     idle = sum(1000 * outcome.km < WAY_M for outcome in outcomes)
     verdict.want(f"runs that drove less than {WAY_M:g} m (0)", f"{idle} of {len(outcomes)}", idle == 0)
     owed = [(job, outcome) for job, outcome in zip(jobs, outcomes) if is_owed(job[0])]
@@ -224,7 +225,7 @@ def evaluate_starts(simulations, verdict, options):
     made = [run for run in runs if run]
     km = sum(run["distance_m"] for run in made) / 1000
     hazards = sum(run["contacts"]["hazards"] for run in made)
-    verdict.want("starts: contacts with marked hazards (0)", f"{hazards} in {len(runs)} explorations, {km:.2f} km", hazards == 0 and km > 0)
+    verdict.want("starts: contacts with marked hazards (0)", f"{bounded(hazards, km)}; {len(runs)} explorations", hazards == 0 and km > 0)
     verdict.want("starts: explorations that ended with a map", f"{len(made)} of {len(runs)}", len(made) == len(runs))
     if not options.no_crippled:
         crippled = [explore(simulations, "bonn", seed, (0.0, 0.0, 10.0), BELIEVES_THE_START) for seed in seeds]

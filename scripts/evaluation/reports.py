@@ -1,4 +1,5 @@
 """What the protocols read in deployment reports (architecture 9)."""
+from evaluation.bounds import bounded
 
 SPEEDUP = 30.0  # virtual over real time, on one core
 KINDS = ["people", "furniture", "walls", "hazards"]
@@ -17,7 +18,8 @@ def touched(reports):
     """How often, and the same with its exposure."""
     km = sum(report["distance_m"] for report in reports) / 1000
     count = sum(map(touches_of, reports))
-    return count, f"{count} in {km:.2f} km, {sum(report['passes_within_1m'] for report in reports)} passes within 1 m"
+    hours = sum(report["virtual_seconds"] for report in reports) / 3600
+    return count, f"{bounded(count, km, hours)}; {sum(report['passes_within_1m'] for report in reports)} passes within 1 m"
 
 
 def mean_speed(reports):

@@ -1,4 +1,4 @@
-"""Nothing touched: busy and packed crowds in three museums, many seeds.
+"""Nothing touched: busy and packed crowds in three museums, many seeds. One in ten of the people evades nothing.
 
 Bonn, the Smithsonian, and a museum that `docent museum` makes of a recorded map with recorded pedestrians, who react to
 nothing. Every cell of museum and crowd needs its exposure: the rates below are for an hour of simulated time, and runs
@@ -11,12 +11,14 @@ import subprocess
 from pathlib import Path
 
 from evaluation import crippled
+from evaluation.bounds import bounded
 from evaluation.keys import key_of
 from evaluation.reports import KINDS, computed_of, mean_speed, speedup_of, want_speedup
 from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian", "collection"]
 CROWDS = ["busy", "packed"]
+HEEDLESS = 0.1  # share of people who do not evade: where everybody does, a robot that is blind to people touches nobody either
 KM_AN_HOUR = 0.25
 PASSES_AN_HOUR = 30
 RECORDINGS = {"eth": 0.60, "students01": 0.40}  # share of the tracks that the museum must keep
@@ -79,7 +81,7 @@ def judge(cell, total, share, verdict):
     """@param share  of the exposure that is asked for"""
     contacts = sum(total["contacts"].values())
     hours = total["hours"]
-    verdict.want(f"{cell}: contacts", f"{contacts} in {total['km']:.2f} km, {total['passes']} passes within 1 m, "
+    verdict.want(f"{cell}: contacts", f"{bounded(contacts, total['km'], hours)}; {total['passes']} passes within 1 m, "
                  f"{total['bumped']} times bumped", contacts == 0)
     verdict.want(f"{cell}: area violations", total["area"], total["area"] == 0)
     verdict.want(f"{cell}: driven in an hour ({KM_AN_HOUR} km)", f"{total['km'] / hours:.2f} km at {total['speed']:.2f} m/s",
@@ -91,7 +93,7 @@ def judge(cell, total, share, verdict):
 def run_cells(simulations, museums, crowds, seeds, minutes, arguments):
     """Reports by museum x crowd, all in one pool, shown in one table."""
     cells = [(museum, crowd) for museum in museums for crowd in crowds]
-    reports = simulations.all([("safety", museum, seed, minutes, ["--crowd", crowd, *arguments])
+    reports = simulations.all([("safety", museum, seed, minutes, ["--crowd", crowd, "--heedless", HEEDLESS, *arguments])
                                for museum, crowd in cells for seed in seeds])
     by_cell = {cell: reports[i * len(seeds):(i + 1) * len(seeds)] for i, cell in enumerate(cells)}
     rows = []

@@ -6,6 +6,7 @@ import json
 import math
 import subprocess
 
+from evaluation.bounds import bounded
 from evaluation.reports import contacts_of
 from evaluation.scan_twins import Twins
 from evaluation.tables import Verdict, print_table
@@ -83,7 +84,7 @@ def judge(verdict, kind, museum, reports, ordinary, twins):
     verdict.want(f"{name}: sure but wrong (1 %)", f"{wrong:.1f} of {seconds:.0f} s", wrong <= 0.01 * seconds)
     verdict.note(f"{name}: lost later, among people", f"{lost:.0f} of {seconds:.0f} s")
     driven, touched = sum(r["distance_m"] for r in reports), sum(map(contacts_of, reports))
-    verdict.want(f"{name}: contacts and area violations", f"{touched + sum(r['area_violations'] for r in reports)} in {driven:.0f} m",
+    verdict.want(f"{name}: contacts and area violations", bounded(touched + sum(r["area_violations"] for r in reports), driven / 1000),
                  touched == 0 and driven >= 2 * len(reports))
 
 
@@ -112,7 +113,7 @@ def mirrored(simulations, kinds, museum, minutes, seeds, verdict):
                     ways = [float(row["distance"]) for row in beliefs if float(row["time"]) <= float(said[0]["time"])]
                     named, worst = named + 1, max([worst, *ways[-1:]])
             what = f"mirrored unsaid: named (within {NAMED_M:g} m), contacts" if is_wrong else "as it is said: named (never), contacts"
-            verdict.want(f"{kind}, {museum}, {what}", f"{named} of {len(seeds)} after {worst:.1f} m, {touched} contacts in {driven:.0f} m",
+            verdict.want(f"{kind}, {museum}, {what}", f"{named} of {len(seeds)} after {worst:.1f} m, contacts: {bounded(touched, driven / 1000)}",
                          touched == 0 and (named == len(seeds) and worst <= NAMED_M if is_wrong else named == 0))
 
 

@@ -7,6 +7,7 @@ more; replayed by every way to believe. By itself: the whole robot on its tours 
 """
 import random
 
+from evaluation.bounds import bounded
 from evaluation.claims import LOST_M, error_m, is_lost, mean, since_known
 
 KINDS = ["dead", "frozen", "short", "deaf", "storm"]
@@ -145,7 +146,7 @@ def tour_protocol(bench, verdict, print_table, museums, seeds, minutes):
         verdict.want(f"{name}: never lost after the sonars died, every error at most {100 * LOST_M:g} cm",
                      f"{lost} of {updates} updates in {minutes_after:.0f} minutes and {km:.2f} km, {100 * unsure / max(1, updates):.1f} % unsure, "
                      f"worst {100 * worst:.0f} cm", updates > 0 and lost == 0 and worst <= LOST_M)
-        verdict.want(f"{name}: contacts and area violations", f"{int(touched)}", touched == 0)
+        verdict.want(f"{name}: contacts and area violations", bounded(int(touched), km), touched == 0)
         verdict.want(f"{name}: silent sonars are named within {NAMED_WITHIN:g} s", f"worst {max(late, default=99):.1f} s of {len(late)}",
                      bool(late) and max(late) <= NAMED_WITHIN)
         verdict.want(f"{name}: sonars that are well are not called dead", f"{alarms} alarms in {well_minutes:.0f} minutes", alarms == 0)

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 
+from evaluation.bounds import bounded
 from evaluation.tables import Verdict, print_table
 
 TARGET = "docent_stop_protocol"
@@ -47,7 +48,7 @@ def judge_pairs(verdict, name, report, full):
     verdict.want(f"{name}: acknowledged within {CONFIRMED:g} s", f"{max(pressed):.2f} s in the worst of {len(pressed)}", max(pressed) <= CONFIRMED)
     faults = [f"{trial['first']}, {trial['second']}: {trial['fault']}" for trial in trials if trial["fault"]]
     verdict.want(f"{name}: released everywhere, all back, on its way again", "; ".join(faults) or f"{len(trials)} of {len(trials)}", not faults)
-    verdict.want(f"{name}: contacts", f"{report['contacts']} in {report['distance_m'] / 1000:.2f} km", report["contacts"] == 0)
+    verdict.want(f"{name}: contacts", bounded(report["contacts"], report["distance_m"] / 1000), report["contacts"] == 0)
     if full:
         verdict.want(f"{name}: writes that the disk refused (20)", str(report["refused_writes"]), report["refused_writes"] >= 20)
     for control in report["controls"]:
@@ -75,7 +76,7 @@ def judge_day(verdict, report):
     verdict.want("a day: acknowledged, everywhere, by the right hours, all back", "; ".join(faults) or "24 of 24", not faults)
     verdict.want("a day: full disks, clocks set back", f"{sum(hour['full'] for hour in hours)}, {sum(bool(hour['clock']) for hour in hours)}",
                  any(hour["full"] for hour in hours) and any(hour["clock"] for hour in hours))
-    verdict.want("a day: contacts", f"{report['contacts']} in {report['distance_m'] / 1000:.2f} km", report["contacts"] == 0)
+    verdict.want("a day: contacts", bounded(report["contacts"], report["distance_m"] / 1000), report["contacts"] == 0)
 
 
 def protocol(simulations, options):

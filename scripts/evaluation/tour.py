@@ -1,4 +1,5 @@
 """Tours in a busy museum: nothing touched, localized, requests served, at thirty times real time; and the crippled robots."""
+from evaluation.bounds import bounded
 from evaluation import crippled
 from evaluation.reports import contacts_of, want_speedup
 from evaluation.tables import Verdict, print_table
@@ -39,7 +40,7 @@ def judge(reports, minutes, floors):
     localized = [r["localization"]["localized_after_s"] for r in reports]
     early = sum(1 for t in localized if t is not None and t <= 300)
     contacts = sum(map(contacts_of, reports))
-    verdict.want("contacts", f"{contacts} in {km:.2f} km, {sum(r['passes_within_1m'] for r in reports)} passes within 1 m",
+    verdict.want("contacts", f"{bounded(contacts, km, hours)}; {sum(r['passes_within_1m'] for r in reports)} passes within 1 m",
                  contacts == 0)
     violations = sum(r["area_violations"] for r in reports)
     verdict.want("area violations", f"{violations}", violations == 0)

@@ -7,6 +7,7 @@ jump; a real jump, in the middle of it all, is one. A robot that takes for a jum
 import csv
 import math
 
+from evaluation.bounds import bounded
 from evaluation import claims as claims_of
 from evaluation.reports import contacts_of
 from evaluation.tables import Verdict, print_table
@@ -121,7 +122,7 @@ def judge(fault, runs, verdict):
     sure = [lost for run in runs for lost in run.sure]
     contacts, jumps = sum(contacts_of(run.report) for run in runs), sum(run.false_jumps for run in runs)
     localized = [run.report["localization"]["localized_after_s"] for run in runs]
-    verdict.want(f"{fault}: contacts", f"{contacts} in {km:.2f} km, {sum(run.report['passes_within_1m'] for run in runs)} passes within 1 m",
+    verdict.want(f"{fault}: contacts", f"{bounded(contacts, km)}; {sum(run.report['passes_within_1m'] for run in runs)} passes within 1 m",
                  contacts == 0 and km > 0)
     share = served / counted if counted else 0.0
     verdict.want(f"{fault}: requests served, at least {100 * SERVED:.0f} %", f"{100 * share:.1f} % of {counted}", share >= SERVED)

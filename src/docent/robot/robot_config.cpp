@@ -54,6 +54,8 @@ Result<void> check_scanners(const std::vector<Scanner>& scanners) {
       return fail("body.scanners: " + scanner->name + " must lie within 1 m of the robot's centre");
     if (!(scanner->field > 0.0 && scanner->field <= 360.0))
       return fail("body.scanners: the field of " + scanner->name + " must be > 0 and <= 360 degrees");
+    if (!(scanner->height >= 0.02 && scanner->height <= 3.0))
+      return fail("body.scanners: the height of " + scanner->name + " must be 0.02..3 m");
     if (auto valid = check_kind(*scanner); !valid) return valid;
   }
   return {};

@@ -29,7 +29,8 @@ struct Scanner {
   double rate = 10.0;         ///< [Hz] of a simulated one
   bool clockwise = false;     ///< likewise: its beams go round so
   std::string no_return =
-      "greatest";  ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
+      "greatest";        ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
+  double height = 0.38;  ///< [m] above the floor; below the waist it sees legs, and people are wider than these
   template <class V>
   void visit(V& v) {
     v("name", name);
@@ -37,6 +38,7 @@ struct Scanner {
     v("x", x);
     v("y", y);
     v("heading", heading);
+    v("height", height);
     v("field", field);
     v("upside_down", upside_down);
     v("max_range", max_range);

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "docent/geometry/pose2.h"
+#include "docent/simulator/physique/disc.h"
 #include "docent/simulator/sensing/scanner_kind.h"
+#include "docent/simulator/world/world.h"
 
 namespace docent::simulator {
 
@@ -17,6 +19,7 @@ struct Hardware {
     Pose2 base_from_scanner;  ///< the middle of its field looks along x
     ScannerKind kind{};       ///< what is sold under its name
     double late = 0.0;        ///< [s] after the sweep that it is sent, with the stamp of then
+    double height = kLaserHeight;  ///< [m] above the floor
   };
   std::vector<Scanner> scanners{{"front", "laser_front", {}},
                                 {"rear", "laser_rear", {0.0, 0.0, Angle::degrees(180.0)}}};

@@ -103,7 +103,8 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
                          {},
                          0,
                          {},
-                         scanner.late});
+                         scanner.late,
+                         plane_at(scanner.height)});
     scanners_.back().laser.see_body(hardware.posts);
     beams_ += scanners_.back().laser.params().beams;
   }
@@ -112,8 +113,16 @@ Instruments::Instruments(transport::Bus& bus, const World& world, const Hardware
   change_world(world);
 }
 
+std::size_t Instruments::plane_at(double height) {
+  const auto known =
+      std::find_if(planes_.begin(), planes_.end(), [&](const Plane& plane) { return plane.height == height; });
+  if (known != planes_.end()) return static_cast<std::size_t>(known - planes_.begin());
+  planes_.push_back({height, nullptr});
+  return planes_.size() - 1;
+}
+
 void Instruments::change_world(const World& world) {
-  laser_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kLaserHeight));
+  for (Plane& plane : planes_) plane.walls = std::make_unique<RayCaster>(surfaces_at(world, plane.height));
   sonar_walls_ = std::make_unique<RayCaster>(sonar_surfaces(world));
   infrared_walls_ = std::make_unique<RayCaster>(surfaces_at(world, kInfraredHeight));
 }
@@ -227,9 +236,11 @@ void Instruments::publish_odometry(Time now, std::size_t step, const Body& body)
   emit(Sensor::odom, odometry_, std::move(message), last_odom_, now);
 }
 
-void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people) {
-  const auto& sweep = scanner.laser.sweep(*laser_walls_, people, pose);
+void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Posture> people) {
   const LaserParams& params = scanner.laser.params();
+  const Plane& plane = planes_[scanner.plane];
+  slice_.cut(people, plane.height, (pose * scanner.laser.base_from_scanner()).position(), params.max_range);
+  const auto& sweep = scanner.laser.sweep(*plane.walls, slice_.discs(), pose);
   sensor_msgs::LaserScan message;
   message.header = {to_message(now), scanner.frame};
   WrittenSweep written = as_written(scanner.kind, params, sweep.ranges);
@@ -242,10 +253,10 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
   message.ranges = std::move(written.ranges);
   scanner.met.assign(people.size(), 0);
   scanner.blocked = 0;
-  for (const std::int32_t person : sweep.persons) {
-    if (person < 0) continue;
+  for (const std::int32_t disc : sweep.discs) {
+    if (disc < 0) continue;
     ++scanner.blocked;
-    ++scanner.met[static_cast<std::size_t>(person)];
+    ++scanner.met[slice_.persons()[static_cast<std::size_t>(disc)]];
   }
   scanner.lies.tell(now,
                     {message.ranges, message.range_min, message.range_max, message.angle_min, message.angle_increment});
@@ -260,7 +271,7 @@ void Instruments::publish_scan(Time now, Scanner& scanner, const Pose2& pose, st
 }
 
 void Instruments::publish_scans(Time now, std::size_t step, const Pose2& world_from_base,
-                                std::span<const Disc> people) {
+                                std::span<const Posture> people) {
   for (Scanner& scanner : scanners_)
     if (is_due(step, scanner.kind.rate)) publish_scan(now, scanner, world_from_base, people);
 }
@@ -285,14 +296,16 @@ double Instruments::left_out() const {
 }
 
 void Instruments::publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base,
-                                std::span<const Disc> people) {
+                                std::span<const Posture> people) {
   constexpr std::uint64_t kSlots = 40;  // 0.4 s
   const auto groups = static_cast<std::uint64_t>(ring_.groups());
   for (std::uint64_t turn = 0; turn < groups; ++turn) {
     if (turn * kSlots / groups != slot % kSlots) continue;
+    // A cone is tall: the echo is that of the body, wherever the legs are.
+    slice_.cut_trunks(people, world_from_base.position(), ring_.params().max_range + ring_.params().ring_radius);
     // Neighbours never fire one after the other: each would hear the other's echo.
     const auto group = static_cast<int>(turn * (groups % 3 == 0 ? 1 : 3) % groups);
-    for (const Ping& ping : ring_.fire(group, *sonar_walls_, people, world_from_base)) publish_ping(now, ping);
+    for (const Ping& ping : ring_.fire(group, *sonar_walls_, slice_.discs(), world_from_base)) publish_ping(now, ping);
   }
 }
 
@@ -309,16 +322,12 @@ void Instruments::publish_ping(Time now, const Ping& ping) {
 }
 
 void Instruments::publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base,
-                                   std::span<const Disc> people) {
+                                   std::span<const Posture> people) {
   constexpr std::uint64_t kSlots = 20;  // 0.2 s
   const InfraredParams& params = infrared_.params();
   const auto count = static_cast<std::uint64_t>(params.count);
   const double reach = params.max_range + params.ring_radius;
-  near_.clear();
-  for (const Disc& disc : people) {
-    const Point2 offset = disc.centre - world_from_base.position();
-    if (std::max(std::abs(offset.x), std::abs(offset.y)) < reach + disc.radius) near_.push_back(disc);
-  }
+  slice_.cut(people, kInfraredHeight, world_from_base.position(), reach);
   for (std::uint64_t index = 0; index < count; ++index) {
     if (index * kSlots / count != slot % kSlots) continue;
     sensor_msgs::Range message;
@@ -328,7 +337,7 @@ void Instruments::publish_infrared(Time now, std::uint64_t slot, const Pose2& wo
     message.min_range = static_cast<float>(params.min_range);
     message.max_range = static_cast<float>(params.max_range);
     message.range =
-        static_cast<float>(infrared_.read(static_cast<int>(index), *infrared_walls_, near_, world_from_base));
+        static_cast<float>(infrared_.read(static_cast<int>(index), *infrared_walls_, slice_.discs(), world_from_base));
     emit(Sensor::infrared, infrared_readings_, std::move(message), last_infrared_[index], now);
   }
 }
@@ -353,17 +362,23 @@ void Instruments::publish_tactile(Time now, const std::vector<std::uint8_t>& seg
   emit(Sensor::tactile, tactile_, {{to_message(now), "base_link"}, segments, ++tactile_scan_}, last_tactile_, now);
 }
 
-bool Instruments::sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const {
+bool Instruments::sees(const Pose2& world_from_base, std::size_t person, std::span<const Posture> people) const {
+  Slice slice;
   return std::any_of(scanners_.begin(), scanners_.end(), [&](const Scanner& scanner) {
-    return shows(scanner.laser, world_from_base * scanner.laser.base_from_scanner(), person, people);
+    const Pose2 world_from_scanner = world_from_base * scanner.laser.base_from_scanner();
+    const double away = distance(people[person].at, world_from_scanner.position());
+    slice.cut(people, planes_[scanner.plane].height, world_from_scanner.position(), away);
+    for (std::size_t disc = 0; disc < slice.discs().size(); ++disc)
+      if (slice.persons()[disc] == person && shows(scanner, world_from_scanner, disc, slice)) return true;
+    return false;
   });
 }
 
-bool Instruments::shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
-                        std::span<const Disc> people) const {
-  const LaserParams& params = laser.params();
+bool Instruments::shows(const Scanner& scanner, const Pose2& world_from_scanner, std::size_t disc,
+                        const Slice& slice) const {
+  const LaserParams& params = scanner.laser.params();
   const Point2 from = world_from_scanner.position();
-  const Disc& target = people[person];
+  const Disc& target = slice.discs()[disc];
   const Point2 offset = target.centre - from;
   const double away = norm(offset);
   if (away < 1e-6) return true;
@@ -371,15 +386,17 @@ bool Instruments::shows(const LaserScanner& laser, const Pose2& world_from_scann
   const double first_bearing = params.first_bearing - 0.5 * params.bearing_step;  // of what the first beam stands for
   const double last_bearing = first_bearing + params.beams * params.bearing_step;
   const Point2 across = (0.8 * target.radius / away) * Point2{-offset.y, offset.x};
+  const RayCaster& walls = *planes_[scanner.plane].walls;
   for (const double side : {0.0, 1.0, -1.0}) {
     const Point2 point = target.centre + side * across;
     const double range = distance(from, point);
     const Point2 ray = (1.0 / range) * (point - from);
     const double bearing = (Angle::radians(std::atan2(ray.y, ray.x)) - world_from_scanner.theta).radians();
-    bool is_free = bearing >= first_bearing && bearing <= last_bearing && laser_walls_->sees(from, point);
-    for (std::size_t other = 0; other < people.size() && is_free; ++other) {
-      if (other == person || distance(people[other].centre, from) > away) continue;
-      const auto hit = ray_distance(from, ray, people[other].centre, people[other].radius);
+    bool is_free = bearing >= first_bearing && bearing <= last_bearing && walls.sees(from, point);
+    for (std::size_t other = 0; other < slice.discs().size() && is_free; ++other) {
+      const Disc& before = slice.discs()[other];
+      if (slice.persons()[other] == slice.persons()[disc] || distance(before.centre, from) > away) continue;
+      const auto hit = ray_distance(from, ray, before.centre, before.radius);
       if (hit && *hit < range - target.radius) is_free = false;
     }
     if (is_free) return true;

@@ -9,6 +9,7 @@
 #include "docent/simulator/body/battery.h"
 #include "docent/simulator/body/body.h"
 #include "docent/simulator/hardware.h"
+#include "docent/simulator/physique/slice.h"
 #include "docent/simulator/scenario/scenario.h"
 #include "docent/simulator/sensing/infrared.h"
 #include "docent/simulator/sensing/laser.h"
@@ -42,11 +43,11 @@ class Instruments {
   /// When it is due. `step`: counts steps of 10 ms.
   void publish_odometry(Time now, std::size_t step, const Body& body);
   /// The scanners of which a sweep is due. `step`: counts steps of 10 ms.
-  void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Disc> people);
+  void publish_scans(Time now, std::size_t step, const Pose2& world_from_base, std::span<const Posture> people);
   /// @param slot  counts steps of 10 ms: the sonars fire in groups of three, each every 0.4 s
-  void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
+  void publish_sonar(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Posture> people);
   /// Each of the ring every 0.2 s, one or two a step of 10 ms.
-  void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Disc> people);
+  void publish_infrared(Time now, std::uint64_t slot, const Pose2& world_from_base, std::span<const Posture> people);
   void publish_battery(Time now, const Battery& battery);
   void publish_tactile(Time now, const std::vector<std::uint8_t>& segments);
 
@@ -56,7 +57,7 @@ class Instruments {
   /// [rad] that the lies of all scanners leave out of their last sweeps because something is near there.
   [[nodiscard]] double left_out() const;
   /// True when a ray of some scanner, within its field and its range, reaches a person past walls and other people.
-  [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Disc> people) const;
+  [[nodiscard]] bool sees(const Pose2& world_from_base, std::size_t person, std::span<const Posture> people) const;
 
  private:
   struct Scanner {
@@ -69,7 +70,8 @@ class Instruments {
     std::vector<int> met;  ///< [people] beams of the last sweep
     int blocked = 0;       ///< beams of the last sweep that met people
     ScannerLies lies;
-    double late = 0.0;  ///< [s], see Hardware
+    double late = 0.0;      ///< [s], see Hardware
+    std::size_t plane = 0;  ///< index in planes_
   };
   struct Fault {
     FaultKind kind;
@@ -83,12 +85,19 @@ class Instruments {
   template <class T>
   void send(Sensor sensor, const transport::Publisher<T>& publisher, T message, Time now, double later = 0.0);
   void publish_ping(Time now, const Ping& ping);
-  [[nodiscard]] bool shows(const LaserScanner& laser, const Pose2& world_from_scanner, std::size_t person,
-                           std::span<const Disc> people) const;
-  void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Disc> people);
+  /// Whether it reaches a disc of the slice past those of others.
+  [[nodiscard]] bool shows(const Scanner& scanner, const Pose2& world_from_scanner, std::size_t disc,
+                           const Slice& slice) const;
+  void publish_scan(Time now, Scanner& scanner, const Pose2& pose, std::span<const Posture> people);
+  /// The plane of scanners that are mounted so high.
+  [[nodiscard]] std::size_t plane_at(double height);
 
   transport::Bus& bus_;
-  std::unique_ptr<RayCaster> laser_walls_;
+  struct Plane {
+    double height;  ///< [m] above the floor
+    std::unique_ptr<RayCaster> walls;
+  };
+  std::vector<Plane> planes_;  ///< in which scanners look
   std::unique_ptr<RayCaster> sonar_walls_;
   std::unique_ptr<RayCaster> infrared_walls_;
   std::vector<Scanner> scanners_;
@@ -103,7 +112,7 @@ class Instruments {
   };
   Rng wire_rng_;
   std::array<std::optional<Line>, kSensors> lines_;  ///< of those whose messages do not come at once
-  std::vector<Disc> near_;                           ///< people within reach of the infrared ring
+  Slice slice_;                                      ///< of the people, for one sensor after the other
   bool skips_ = false;
   Time last_odometry_{};
   Pose2 last_pose_{};

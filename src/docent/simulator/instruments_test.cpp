@@ -27,8 +27,9 @@ class Sight : public ::testing::Test {
   }
   /// Somebody so far from the robot, in its frame [m].
   [[nodiscard]] static bool sees(const Instruments& instruments, Point2 somebody, std::vector<Point2> others = {}) {
-    std::vector<Disc> people{{kRobot * somebody, kRadius}};
-    for (const Point2 other : others) people.push_back({kRobot * other, kRadius});
+    const Physique disc = one_disc(kRadius);
+    std::vector<Posture> people{{kRobot * somebody, {1.0, 0.0}, 0.0, &disc}};
+    for (const Point2 other : others) people.push_back({kRobot * other, {1.0, 0.0}, 0.0, &disc});
     return instruments.sees(kRobot, 0, people);
   }
   static constexpr Pose2 kRobot{5.0, 5.0, Angle{}};
@@ -95,6 +96,27 @@ TEST_F(Sight, AScannerIsWrittenAsItIsSoldAndSeesTheBodysPosts) {
   EXPECT_NEAR(reading(0.5 * std::numbers::pi), 3.0, 0.2) << "the wall to the left";
   EXPECT_NEAR(reading(-0.5 * std::numbers::pi), 0.18, 0.08) << "the post to the right";
   EXPECT_EQ(reading(0.0), 0.0) << "nothing ahead";
+}
+
+TEST_F(Sight, AScannerSeesWhatIsAtItsHeight) {
+  Physique table;  // one leg in the middle
+  table.parts = {{{}, 0.05, 0.0, 0.7, 0.0, false}, {{}, 0.5, 0.7, 0.75, 0.0, false}};
+  table.reach = 0.5;
+  const std::vector<Posture> people{{kRobot * Point2{2.0, 0.0}, {1.0, 0.0}, 0.0, &table}};
+  for (const double height : {0.1, 0.38, 0.72}) {
+    Hardware hardware;
+    hardware.scanners.front().height = height;
+    hardware.scanners.resize(1);
+    Instruments instruments{*bus_, world_, hardware, Rng{1}};
+    instruments.publish_scans(hub_.now(), 0, kRobot, people);
+    const int met = instruments.met(0);
+    if (height < 0.7) {
+      EXPECT_LE(met, 4) << height;
+      EXPECT_GE(met, 1) << height;
+    } else {
+      EXPECT_GE(met, 25) << "the top, edge on";
+    }
+  }
 }
 
 TEST_F(Sight, WithoutAScannerNobodyIsSeen) { EXPECT_FALSE(sees(*with({}), {1.0, 0.0})); }

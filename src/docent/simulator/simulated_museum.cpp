@@ -17,9 +17,12 @@ namespace {
 constexpr double kWorldStep = 0.01;    // [s]
 constexpr double kPeopleStep = 0.02;   // [s]
 constexpr double kChargerReach = 0.4;  // [m]
+constexpr double kRobotHeight = 1.2;   // [m] what of people is higher it does not touch
 
 CrowdParams params_for(const SimulationOptions& options) {
   CrowdParams params = options.crowd_params;
+  if (options.bodies) params.physique.bodies = *options.bodies;
+  if (options.heedless) params.heedless_share = *options.heedless;
   if (options.crowd == "packed" && params.near_share == 0.0) params.near_share = 0.25;
   return params;
 }
@@ -37,6 +40,8 @@ Result<void> validate(const SimulationOptions& options) {
   if (options.cameras) {
     if (auto valid = options.cameras->validate(); !valid) return valid;
   }
+  if (options.heedless && !(*options.heedless >= 0.0 && *options.heedless <= 1.0))
+    return fail("the share of the heedless must lie between 0 and 1");
   if (options.requests_per_hour && !(*options.requests_per_hour >= 0.0)) return fail("requests per hour must be >= 0");
   return {};
 }
@@ -142,6 +147,7 @@ void SimulatedMuseum::Impl::step() {
   if (has_fallen_) body_.carry_to(before);
   if (steps_ % 2 == 0) crowd_.step(run_seconds(), kPeopleStep, view());
   people_.clear();
+  postures_.clear();
   beside_.clear();
   const Point2 centre = body_.pose().position();
   for (const Person& person : crowd_.people()) {
@@ -149,6 +155,7 @@ void SimulatedMuseum::Impl::step() {
     const Point2 offset = person.position - centre;
     if (std::max(std::abs(offset.x), std::abs(offset.y)) <= kBeside) beside_.push_back(people_.size());
     people_.push_back({person.position, person.radius});
+    postures_.push_back(person.posture());
   }
   touch();
   distance_ += distance(before.position(), body_.pose().position());
@@ -183,9 +190,12 @@ void SimulatedMuseum::Impl::touch() {
     press(touch.towards);
   }
   for (const std::size_t i : beside_) {
-    const double reach = radius + people_[i].radius;
-    const Point2 offset = people_[i].centre - centre;
-    if (dot(offset, offset) > 1.1 * reach * reach) continue;  // no root for most
+    const double most = radius + postures_[i].physique->reach;
+    const Point2 apart = postures_[i].at - centre;
+    if (dot(apart, apart) > 1.1 * most * most) continue;  // no root for most
+    const Disc part = nearest_part(postures_[i], centre, kRobotHeight);
+    const double reach = radius + part.radius;
+    const Point2 offset = part.centre - centre;
     const double away = norm(offset);
     if (away > reach + 0.001) continue;
     const Point2 towards = away > 1e-6 ? (1.0 / away) * offset : Point2{1.0, 0.0};
@@ -194,9 +204,9 @@ void SimulatedMuseum::Impl::touch() {
                {"people", "person-" + std::to_string(person.id), centre + radius * towards, towards,
                 -dot(person.velocity, towards), person.id});
     press(towards);
-    const double rest = crowd_.give_way(i, centre, reach);
+    const double rest = crowd_.give_way(i, centre - (part.centre - postures_[i].at), reach);
     if (rest > 0.0) centre = centre - rest * towards;  // wedged in: it is the robot that stops
-    people_[i].centre = crowd_.people()[i].position;
+    people_[i].centre = postures_[i].at = crowd_.people()[i].position;
   }
   if (!touches_.empty()) obstacles_.resolve(centre, radius, touches_);
   body_.correct(centre);
@@ -218,11 +228,12 @@ void SimulatedMuseum::Impl::watch_people() {
   const Point2 centre = body_.pose().position();
   const Point2 ahead = unit(body_.pose().theta);
   for (const std::size_t i : beside_) {
-    const Point2 offset = people_[i].centre - centre;
-    const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + people_[i].radius + 0.1;
-    ContactLog::PersonSample sample{crowd_.people()[i].id, offset, people_[i].radius, false};
+    const Disc part = nearest_part(postures_[i], centre, kRobotHeight);
+    const Point2 offset = part.centre - centre;
+    const bool in_the_way = std::abs(cross(ahead, offset)) < body_.params().radius + part.radius + 0.1;
+    ContactLog::PersonSample sample{crowd_.people()[i].id, offset, part.radius, false};
     sample.in_sight = in_the_way && std::abs(body_.linear()) > 0.01 && is_inside_stopping_distance(sample, body_) &&
-                      instruments_.sees(body_.pose(), i, people_);
+                      instruments_.sees(body_.pose(), i, postures_);
     samples_.push_back(sample);
   }
   log_.watch(time_, body_, samples_);
@@ -230,10 +241,10 @@ void SimulatedMuseum::Impl::watch_people() {
 
 void SimulatedMuseum::Impl::publish() {
   instruments_.publish_odometry(time_, steps_, body_);
-  instruments_.publish_scans(time_, steps_, body_.pose(), people_);
+  instruments_.publish_scans(time_, steps_, body_.pose(), postures_);
   if (cameras_) cameras_->step(time_, steps_, body_.pose(), body_.params().radius, crowd_.people());
-  instruments_.publish_sonar(time_, steps_, body_.pose(), people_);
-  instruments_.publish_infrared(time_, steps_, body_.pose(), people_);
+  instruments_.publish_sonar(time_, steps_, body_.pose(), postures_);
+  instruments_.publish_infrared(time_, steps_, body_.pose(), postures_);
   if (tactile_now_ != tactile_ || every(20)) {
     tactile_ = tactile_now_;
     instruments_.publish_tactile(time_, tactile_);
@@ -274,14 +285,23 @@ void SimulatedMuseum::Impl::publish_truth() {
   state.people.reserve(people.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
     const Person& person = people[i];
-    state.nearest_person_m = std::min(
-        state.nearest_person_m, distance(person.position, pose.position()) - person.radius - body_.params().radius);
+    const double gap = gap_to(i, pose.position());
+    state.nearest_person_m = std::min(state.nearest_person_m, gap);
+    // As a disc that reaches as far towards the robot as they do.
+    const double radius = distance(person.position, pose.position()) - body_.params().radius - gap;
     state.people.push_back({person.id, static_cast<float>(person.position.x), static_cast<float>(person.position.y),
                             static_cast<float>(person.velocity.x), static_cast<float>(person.velocity.y),
-                            static_cast<float>(person.radius), instruments_.met(i) > 0});
+                            static_cast<float>(radius), instruments_.met(i) > 0});
     state.person_beams.push_back(static_cast<std::uint8_t>(std::min(instruments_.met(i), 255)));
   }
   tell(states_, std::move(state));
+}
+
+double SimulatedMuseum::Impl::gap_to(std::size_t person, Point2 centre) const {
+  constexpr double kFar = 5.0;  // [m] where nobody asks for centimetres
+  const double apart = distance(postures_[person].at, centre);
+  const Disc part = apart > kFar ? people_[person] : nearest_part(postures_[person], centre, kRobotHeight);
+  return distance(part.centre, centre) - part.radius - body_.params().radius;
 }
 
 void SimulatedMuseum::Impl::offer(std::string kind, std::string subject) {

@@ -24,6 +24,8 @@ struct SimulationOptions {
   std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
   std::optional<std::size_t> crowd_count;  ///< instead of the level's density; recorded people are among them
   CrowdParams crowd_params;
+  std::optional<Bodies> bodies;          ///< instead of what crowd_params says
+  std::optional<double> heedless;        ///< 0..1 likewise: share of people who do not evade
   std::optional<Pose2> start;            ///< world_from_base; without: random, free, inside the operating area
   std::optional<Point2> charger;         ///< [m]; standing within 0.4 m of it charges the battery
   double battery = 1.0;                  ///< 0..1 at the start

@@ -72,6 +72,8 @@ class SimulatedMuseum::Impl {
   void watch_people();
   void publish();
   void publish_truth();
+  /// [m] between the robot's outline, its centre there, and somebody.
+  [[nodiscard]] double gap_to(std::size_t person, Point2 centre) const;
   void offer(std::string kind, std::string subject);
 
   // scenario_play.cpp: what a scenario does.
@@ -147,7 +149,8 @@ class SimulatedMuseum::Impl {
   std::optional<MissionPhase> phase_;        ///< of the mission; nullopt: it has said nothing yet
   Time phase_began_{};
   std::vector<Temporary> temporary_;
-  std::vector<Disc> people_;
+  std::vector<Disc> people_;         ///< the room that others leave each
+  std::vector<Posture> postures_;    ///< [people] as they stand
   std::vector<std::size_t> beside_;  ///< indices of the people who are near the robot
   std::vector<Touch> touches_;
   std::vector<ContactLog::PersonSample> samples_;

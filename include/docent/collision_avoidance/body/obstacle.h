@@ -18,6 +18,7 @@ struct Obstacle {
   bool is_unknown = false;  ///< nothing has seen what is there
   bool is_low = false;      ///< met below the lasers, which see nobody there: a thing
   bool may_step = false;  ///< may be somebody, also half hidden in a throng, who steps nearer; the window does not ask
+  double perhaps = 0.0;   ///< [m] beyond the margin, where more of somebody may be: passed no faster than harmless
 };
 
 /// Distance [m] from the robot's centre to an obstacle at which a disc of this radius just keeps its margin.

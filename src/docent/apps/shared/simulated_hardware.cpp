@@ -27,7 +27,8 @@ simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
   simulator::Hardware hardware;
   hardware.scanners.clear();
   for (const robot::Scanner& scanner : body.scanners) {
-    hardware.scanners.push_back({scanner.name, scanner.frame, scanner.base_from_sensor(), kind_of(scanner)});
+    hardware.scanners.push_back(
+        {scanner.name, scanner.frame, scanner.base_from_sensor(), kind_of(scanner), 0.0, scanner.height});
   }
   for (const auto& post : body.posts) hardware.posts.push_back({{post[0], post[1]}, post[2]});
   hardware.sonars = body.sonars;

@@ -143,6 +143,13 @@ void add_simulate_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->capture_default_str();
   command->add_option("--people", options->run.people, "so many persons instead of the crowd's density")
       ->check(CLI::Range(0, 10000));
+  command->add_option("--bodies", options->run.bodies, "what people are made of: legs that walk, or discs to the floor")
+      ->check(CLI::IsMember({"legs", "discs"}))
+      ->capture_default_str();
+  command
+      ->add_option("--heedless", options->run.heedless,
+                   "share of people who do not evade: children who run, backs turned, a phone in hand")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_option("--requests-per-hour", options->run.requests_per_hour, "wishes of simulated visitors");
   command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
   command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");

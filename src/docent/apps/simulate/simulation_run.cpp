@@ -153,6 +153,9 @@ class SimulationRun::Parts {
     options.seed = options_.seed;
     options.crowd = options_.crowd;
     options.crowd_count = options_.people;
+    options.bodies = simulator::bodies_of(options_.bodies);
+    if (!options.bodies) return fail("--bodies " + options_.bodies + ": legs or discs");
+    options.heedless = options_.heedless;
     options.start = options_.explore ? options_.explore : options_.start;
     // Sonars alone find no place from nowhere.
     if (!options.start && config_.body().scanners.empty()) options.start = museum_.home;

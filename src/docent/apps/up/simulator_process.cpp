@@ -46,6 +46,9 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   simulation.hardware = simulated_hardware(config->body());
   simulation.seed = deployment.seed;
   simulation.crowd = options.crowd;
+  simulation.bodies = simulator::bodies_of(options.bodies);
+  if (!simulation.bodies) return fail("--bodies " + options.bodies + ": legs or discs");
+  if (options.heedless > 0.0) simulation.heedless = options.heedless;
   const std::string option = options.start.empty() ? "--explore" : "--start";
   const std::string& start = options.start.empty() ? deployment.explore : options.start;
   if (!start.empty()) {
@@ -81,6 +84,14 @@ void SimulatorOptions::add_options(CLI::App& command) {
   command.add_option("--crowd", crowd, "Simulated visitors")
       ->check(CLI::IsMember({"empty", "quiet", "busy", "packed"}))
       ->capture_default_str();
+  command.add_option("--bodies", bodies, "What people are made of: legs that walk, or discs to the floor")
+      ->check(CLI::IsMember({"legs", "discs"}))
+      ->capture_default_str();
+  command
+      .add_option("--heedless", heedless,
+                  "Share of people who do not evade: children who run, backs turned, a phone in hand")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
   command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
   command.add_option(
       "--world", world,
@@ -94,7 +105,8 @@ void SimulatorOptions::add_options(CLI::App& command) {
 }
 
 std::vector<std::string> SimulatorOptions::arguments() const {
-  std::vector<std::string> all{"--crowd", crowd, "--mode", mode};
+  std::vector<std::string> all{"--crowd", crowd, "--mode", mode, "--bodies", bodies};
+  if (heedless > 0.0) all.insert(all.end(), {"--heedless", std::to_string(heedless)});
   if (!world.empty()) all.insert(all.end(), {"--world", world});
   if (!start.empty()) all.insert(all.end(), {"--start=" + start});  // it may begin with a minus
   if (!has_cameras) all.emplace_back("--no-cameras");

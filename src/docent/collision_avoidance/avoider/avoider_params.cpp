@@ -12,6 +12,7 @@ Result<void> AvoiderParams::validate() const {
   if (!(lookahead >= 0.3 && lookahead <= 5.0)) return fail("avoid.lookahead must lie between 0.3 and 5 m");
   if (!(lookahead_time >= 0.0 && lookahead_time <= 5.0)) return fail("avoid.lookahead_time must lie in 0..5 s");
   if (auto valid = people.validate(); !valid) return valid;
+  if (auto valid = body.validate(); !valid) return valid;
   if (method != "cautious_window" && method != kPlain)
     return fail("avoid.method must be cautious_window or dynamic_window");
   if (!(seen_for >= 0.0 && seen_for <= 60.0)) return fail("avoid.seen_for must lie in 0..60 s");
@@ -27,7 +28,7 @@ std::unique_ptr<LocalPlanner> AvoiderParams::make_planner(const BaseLimits& limi
 }
 
 PeopleCaution AvoiderParams::caution(const BaseLimits& limits) const {
-  return {limits, window.real_margin, people, method != kPlain};
+  return {limits, window.real_margin, people, UnseenBodies{body, laser_height}, method != kPlain};
 }
 
 SurroundingsParams AvoiderParams::surroundings() const {

@@ -11,6 +11,7 @@
 #include "docent/collision_avoidance/avoider/people_caution.h"
 #include "docent/collision_avoidance/avoider/surroundings.h"
 #include "docent/collision_avoidance/body/speed_near_people.h"
+#include "docent/collision_avoidance/body/unseen_bodies.h"
 #include "docent/collision_avoidance/dynamic_window/dynamic_window.h"
 #include "docent/collision_avoidance/local_planner/local_planner.h"
 #include "docent/collision_avoidance/local_planner/window_planners.h"
@@ -55,6 +56,7 @@ struct ReflexParams {
 struct AvoiderParams {
   DynamicWindowParams window;
   PeopleCautionParams people;
+  UnseenBodyParams body;  ///< what of people the lasers do not see
   /// cautious_window: the dynamic window, slower near people, who are foreseen for a second; dynamic_window: the plain
   /// one, for comparison, with people as things that stand where they are now.
   std::string method = "cautious_window";
@@ -68,6 +70,7 @@ struct AvoiderParams {
   double sonar_speed = 0.3;   ///< [m/s] > 0, at most, of a robot without lasers: sonars see 1.5 m far, twice a second
   bool has_infrared = false;  ///< the body has these rings: stands when they are silent, from the start on
   bool has_tactile = false;
+  double laser_height = 0.38;          ///< [m] above the floor, of the lowest laser
   bool has_lasers = true;              ///< false: the ring of sonars tells what is free
   bool blind_to_people = false;        ///< crippled, for evaluation: sees virtual measurements and touch only
   bool remembers_touch = true;         ///< false: likewise: what was touched is forgotten
@@ -92,6 +95,7 @@ struct AvoiderParams {
     v("lookahead", lookahead);
     v("lookahead_time", lookahead_time);
     v("people", people);
+    v("body", body);
     v("method", method);
     v("arrival_deceleration", arrival_deceleration);
     v("target_timeout", target_timeout);

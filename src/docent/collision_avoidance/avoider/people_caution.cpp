@@ -9,13 +9,20 @@ Obstacle PeopleCaution::obstacle_of(const SensedPoint& point) const {
   const bool moves = point.known.velocity != Point2{};
   bool person = point.known.person;
   bool may_step = moves || !point.known.straight;
+  bool is_somebody = moves;
   if (point.unmapped != nullptr && !moves && (person || point.away < point.steps_in)) {
     may_step = point.unmapped->is_near(point.known.in_odom);  // what the map explains is no person
     person = person && may_step;
+    is_somebody = may_step && !point.known.straight && !point.known.low;
   }
   Obstacle obstacle{point.at, point.velocity, margin_, person, false};
   obstacle.may_step = may_step && point.away < point.steps_in;
   obstacle.is_low = point.known.low;
+  if (is_somebody) {
+    const UnseenBodies::Reach unseen = bodies_.reach(point.at, point.velocity);
+    obstacle.margin += unseen.likely;
+    obstacle.perhaps = unseen.most - unseen.likely;
+  }
   return obstacle;
 }
 
@@ -27,7 +34,7 @@ std::optional<Velocity> PeopleCaution::slowed_for_people(const Velocity& command
   BrakingWay braking{speed, curvature, limits_, people_};
   for (const auto& obstacle : obstacles) {
     if (!obstacle.may_step && !obstacle.person && obstacle.velocity == Point2{}) continue;
-    const PersonPoint person{obstacle.at, obstacle.velocity, limits_.radius + obstacle.margin};
+    const PersonPoint person{obstacle.at, obstacle.velocity, limits_.radius + obstacle.margin + obstacle.perhaps};
     while (speed > people_.harmless && !braking.is_forgivable(person)) {
       speed -= params_.slowing_step;
       braking = {speed, curvature, limits_, people_};

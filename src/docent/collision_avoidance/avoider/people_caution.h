@@ -6,6 +6,7 @@
 #include "docent/collision_avoidance/body/base_motion.h"
 #include "docent/collision_avoidance/body/obstacle.h"
 #include "docent/collision_avoidance/body/speed_near_people.h"
+#include "docent/collision_avoidance/body/unseen_bodies.h"
 #include "docent/collision_avoidance/obstacle_field/obstacle_memory.h"
 #include "docent/collision_avoidance/obstacle_field/unmapped_places.h"
 
@@ -33,10 +34,17 @@ class PeopleCaution {
  public:
   /// @param margin  [m] kept to what was sensed
   /// @param foresees_people  false: takes people for things that stand where they are now, for comparison
-  PeopleCaution(const BaseLimits& limits, double margin, const PeopleCautionParams& people, bool foresees_people,
-                const CautionParams& params = {})
-      : limits_{limits}, margin_{margin}, people_{people}, foresees_people_{foresees_people}, params_{params} {}
+  /// @param bodies  how much farther than that people reach
+  PeopleCaution(const BaseLimits& limits, double margin, const PeopleCautionParams& people, const UnseenBodies& bodies,
+                bool foresees_people, const CautionParams& params = {})
+      : limits_{limits},
+        margin_{margin},
+        people_{people},
+        bodies_{bodies},
+        foresees_people_{foresees_people},
+        params_{params} {}
 
+  /// Legs, which is all that a low laser sees of somebody, get the margin of the body above them.
   [[nodiscard]] Obstacle obstacle_of(const SensedPoint& point) const;
   /// The command, slowed for whoever may come nearer within a second; nullopt when it may stay.
   [[nodiscard]] std::optional<Velocity> slowed_for_people(const Velocity& command,
@@ -48,6 +56,7 @@ class PeopleCaution {
   BaseLimits limits_;
   double margin_;
   PeopleCautionParams people_;
+  UnseenBodies bodies_;
   bool foresees_people_;
   CautionParams params_;
 };

@@ -102,6 +102,30 @@ std::optional<AvoiderDecision> reflex_to_somebody(double gap) {
   return avoider.reflex(now);
 }
 
+/// How a point of somebody's legs, at `at` and moving with `velocity`, is taken.
+Obstacle taken(Point2 at, Point2 velocity, double laser_height, bool mapped = false) {
+  const PeopleCaution caution{{}, 0.08, {}, UnseenBodies{{.ahead = 0.12, .aside = 0.22}, laser_height}, true};
+  UnmappedPlaces unmapped;
+  const Time now = time_from_seconds(10.0);
+  const std::vector<Point2> beams{mapped ? Point2{-3.0, 0.0} : at};
+  unmapped.add(now, now, {}, beams, true);
+  EXPECT_TRUE(unmapped.judge(now));
+  ObstaclePoint point;
+  point.in_odom = at;
+  point.velocity = velocity;
+  point.person = true;
+  return caution.obstacle_of({point, at, velocity, norm(at), 2.5, &unmapped});
+}
+
+TEST(PeopleCaution, KeepsClearOfTheBodyAboveTheLegs) {
+  EXPECT_NEAR(taken({1.0, 0.0}, {}, 0.3).margin, 0.20, 1e-9);
+  EXPECT_NEAR(taken({1.0, 0.0}, {}, 0.3).perhaps, 0.10, 1e-9);
+  EXPECT_NEAR(taken({1.0, 0.0}, {0.0, 1.0}, 0.3).margin, 0.30, 1e-9) << "their side";
+  EXPECT_NEAR(taken({1.0, 0.0}, {-1.0, 0.0}, 0.3).margin, 0.20, 1e-9) << "their front";
+  EXPECT_NEAR(taken({1.0, 0.0}, {}, 1.0).margin, 0.08, 1e-9) << "a laser that sees them whole";
+  EXPECT_NEAR(taken({1.0, 0.0}, {}, 0.3, true).margin, 0.08, 1e-9) << "a column that the map explains";
+}
+
 TEST(PeopleCaution, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
   const auto near = reflex_to_somebody(0.16);
   ASSERT_TRUE(near) << "no reflex";

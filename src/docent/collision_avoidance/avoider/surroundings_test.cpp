@@ -82,7 +82,8 @@ TEST(Surroundings, WithOneLaserInFrontItDrivesAheadAsWithTwo) {
 TEST(Surroundings, ARobotWithoutLasersTakesNoPlaceForUnknown) {
   for (const bool has_lasers : {true, false}) {
     const Surroundings surroundings{{}, {.has_lasers = has_lasers}, {}};
-    const auto things = surroundings.obstacles({}, time_from_seconds(10.0), 0.3, PeopleCaution{{}, 0.08, {}, false});
+    const auto things = surroundings.obstacles({}, time_from_seconds(10.0), 0.3,
+                                               PeopleCaution{{}, 0.08, {}, UnseenBodies{{}, 0.38}, false});
     EXPECT_EQ(things.empty(), !has_lasers) << "what no laser looks at is unknown, unless sonars look all round";
   }
 }

@@ -301,6 +301,9 @@ Result<std::unique_ptr<Module>> make_avoid_with(const ModuleContext& context,
   params->has_infrared = body.infrareds > 0;
   params->has_tactile = body.tactile;
   params->has_lasers = !body.scanners.empty();
+  const auto lowest = std::min_element(body.scanners.begin(), body.scanners.end(),
+                                       [](const auto& a, const auto& b) { return a.height < b.height; });
+  if (lowest != body.scanners.end()) params->laser_height = lowest->height;
   auto limits = limits_of(body);
   if (!limits) return tl::unexpected<Error>(limits.error());
   return std::make_unique<AvoidModule>(context, *limits, *params, make_planner ? make_planner(*limits) : nullptr);

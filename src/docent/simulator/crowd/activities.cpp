@@ -288,7 +288,8 @@ Point2 Crowd::pressing(Person& person, const Sight& sight, double now) {
   if (!sight.in_sight || sight.away > kComesBy) return {};
   const Point2 to_robot = (1.0 / std::max(sight.away, 0.05)) * sight.offset;
   if (-dot(robot_.velocity, to_robot) > 0.12 && sight.gap < 0.8) return -0.8 * to_robot;  // it comes on: back
-  const Point2 place = robot_.position + (robot_.radius + person.radius - 0.02) * unit(Angle::radians(person.slot));
+  const Point2 side = unit(Angle::radians(person.slot));
+  const Point2 place = robot_.position + (robot_.radius + reach_to(person, -1.0 * side) - 0.02) * side;
   const double away = distance(person.position, place);
   if (away < 0.03) return {};
   return (std::clamp(1.2 * away, 0.2, 1.0) / away) * (place - person.position);

@@ -30,6 +30,7 @@ Crowd::Crowd(const World& world, WalkableFloor floor, const CrowdParams& params,
     : world_{world},
       params_{params},
       rng_{rng},
+      physique_rng_{rng.stream("physique")},
       floor_{std::move(floor)},
       replay_{count > 0 ? world.pedestrians : std::vector<Recording>{}, rng.stream("replay")},
       robot_{robot} {
@@ -79,7 +80,20 @@ Person Crowd::new_person(double now) {
   person.bored_until = now + rng_.uniform(0.0, 40.0);
   person.progress_at = now;
   person.ignores_robot = params_.ignoring_share > 0.0 && rng_.chance(params_.ignoring_share);
+  if (params_.heedless_share > 0.0 && rng_.chance(params_.heedless_share))
+    person.ignores_robot = person.is_heedless = true;
+  build(person);
   return person;
+}
+
+void Crowd::build(Person& person) {
+  constexpr double kOnWheels = 0.9;  // [m/s] with a pram, or in a wheelchair
+  person.physique = draw_physique(params_.physique, {person.is_child, person.height, person.radius}, physique_rng_);
+  person.radius = room_of(person.physique, person.radius);
+  if (person.physique.aid == Aid::pram || person.physique.aid == Aid::wheelchair)
+    person.preferred_speed = std::min(person.preferred_speed, kOnWheels);
+  if (params_.physique.bodies == Bodies::legs)
+    person.gait = Gait{unit(Angle::radians(physique_rng_.uniform(-std::numbers::pi, std::numbers::pi)))};
 }
 
 void Crowd::place_anywhere(Person& person, const RobotView& robot, bool near_robot) {
@@ -124,6 +138,7 @@ void Crowd::let_recorded_in(double now, const RobotView& robot) {
     person.is_extra = true;
     person.activity = Activity::recorded;
     person.radius = kRecordedRadius;
+    build(person);
     person.walk = walk;
     person.position = person.progress_from = place;
     people_.push_back(person);
@@ -178,6 +193,7 @@ void Crowd::add_runners(int count, Point2 at, double within, double until) {
     person.radius = rng_.uniform(0.15, 0.18);
     person.height = rng_.uniform(0.95, 1.35);
     person.preferred_speed = rng_.uniform(1.4, 1.9);
+    build(person);
     person.activity = Activity::romp;
     person.home = at;
     person.ground = within;
@@ -289,14 +305,17 @@ void Crowd::follow_track(Person& person, double now, double dt) const {
   const double length = norm(way);
   const Point2 step = length > kHurry * dt ? (kHurry * dt / length) * way : way;
   person.velocity = person.wanted = (1.0 / dt) * step;
+  if (params_.physique.bodies == Bodies::legs) person.gait.walk(person.velocity, dt, person.physique);
   person.position = person.position + step;
 }
 
 void Crowd::keep_off(Person& person, Point2& next, const RobotView& robot) const {
-  const double least = robot.radius + person.radius + kPersonalRobotGap;
+  const double most = robot.radius + person.physique.reach + kPersonalRobotGap;
   const Point2 from_robot = next - robot.position;
-  if (dot(from_robot, from_robot) > 1.01 * least * least) return;  // no root for most
+  if (dot(from_robot, from_robot) > 1.01 * most * most) return;  // no root for most
   const double away = norm(from_robot);
+  const double least =
+      away > 1e-6 ? robot.radius + reach_to(person, (-1.0 / away) * from_robot) + kPersonalRobotGap : most;
   const bool walks_into_it = person.activity == Activity::push || ignores_robot(person) ||
                              person.activity == Activity::press || person.activity == Activity::romp ||
                              (person.is_inattentive && dot(person.velocity, from_robot) < -0.2 * away);
@@ -315,6 +334,7 @@ void Crowd::move(std::size_t index, double dt, const RobotView& robot) {
   const double limit = (dot(change, person.velocity) < 0.0 ? params_.braking : params_.acceleration) * dt;
   const double size = norm(change);
   person.velocity = size > limit ? person.velocity + (limit / size) * change : person.wanted;
+  if (params_.physique.bodies == Bodies::legs) person.gait.walk(person.velocity, dt, person.physique);
 
   Point2 next = person.position + dt * person.velocity;
   for (int k = 0; k < person.near_count; ++k) {

@@ -58,6 +58,7 @@ class Crowd {
   /// How many different people there have been.
   [[nodiscard]] std::uint32_t visitors() const { return next_id_; }
   /// The robot's outline presses into a person: they give way unless something is behind them.
+  /// @param robot  [m] where its centre would be, did it touch them in their middle
   /// @param reach  [m] sum of both radii. @returns the overlap that remains [m].
   [[nodiscard]] double give_way(std::size_t person, Point2 robot, double reach);
 
@@ -74,6 +75,8 @@ class Crowd {
   };
 
   [[nodiscard]] Person new_person(double now);
+  /// Draws how they are built, by what is known of them.
+  void build(Person& person);
   /// A free place within `within` [m] of `centre`, apart from the others; the centre where there is none.
   [[nodiscard]] Point2 place_near(Point2 centre, double within);
   void place_anywhere(Person& person, const RobotView& robot, bool near_robot);
@@ -119,6 +122,10 @@ class Crowd {
   /// A person who does not walk into the robot comes no nearer to it than a hand's breadth.
   void keep_off(Person& person, Point2& next, const RobotView& robot) const;
   void follow_track(Person& person, double now, double dt) const;
+  /// How far [m] somebody's body reaches from their middle in the direction of the unit vector `towards`.
+  [[nodiscard]] double reach_to(const Person& person, Point2 towards) const {
+    return params_.physique.bodies == Bodies::discs ? person.radius : reach_towards(person.posture(), towards);
+  }
   [[nodiscard]] bool ignores_robot(const Person& person) const {
     return person.ignores_robot && now_ >= person.bumped_until;
   }
@@ -126,6 +133,7 @@ class Crowd {
   World world_;
   CrowdParams params_;
   Rng rng_;
+  Rng physique_rng_;
   WalkableFloor floor_;
   Replay replay_;
   std::vector<Walk> waiting_;  ///< recorded people who have not come in yet

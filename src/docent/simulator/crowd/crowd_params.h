@@ -1,5 +1,7 @@
 #pragma once
 
+#include "docent/simulator/physique/physique.h"
+
 namespace docent::simulator {
 
 /// What people are like. Shares are of all people, rates are per second and person near the robot.
@@ -41,11 +43,16 @@ struct CrowdParams {
   double face_rate = 0.05;  ///< [1/s] someone in its way steps aside unasked before an angry face; in proportion before
                             ///< a less displeased one, never before a neutral or happy one
 
-  double acceleration = 2.5;    ///< [m/s^2]
-  double braking = 3.0;         ///< [m/s^2]
-  double reaction_time = 0.3;   ///< [s] they see the robot as it was so long ago, carried forward
-  double ignoring_share = 0.0;  ///< of all people: walk and stand as if no robot were there, until they touch it
-  double near_share = 0.0;      ///< of all people, kept within 5 m of the robot; packed: 0.25
+  double acceleration = 2.5;       ///< [m/s^2]
+  double braking = 3.0;            ///< [m/s^2]
+  double reaction_time = 0.3;      ///< [s] they see the robot as it was so long ago, carried forward
+  double ignoring_share = 0.0;     ///< of all people: walk and stand as if no robot were there, until they touch it
+  double heedless_share = 0.0;     ///< of all people: likewise, with a phone in hand or their backs turned; of these,
+                                   ///< children run about most of the time
+  double heedless_run_rate = 0.2;  ///< [1/s] such a child starts to run about
+  double near_share = 0.0;         ///< of all people, kept within 5 m of the robot; packed: 0.25
+
+  PhysiqueParams physique;  ///< how they are built
 };
 
 }  // namespace docent::simulator

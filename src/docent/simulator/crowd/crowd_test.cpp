@@ -367,6 +367,51 @@ TEST(Crowd, PushersWaitAndThenPressFromTheirSide) {
   EXPECT_TRUE(run.crowd.people().empty()) << "they leave for good";
 }
 
+/// Moments in two minutes in which somebody's body is within 3 cm of a robot that stands among 60 people.
+int touches_of(double heedless) {
+  CrowdParams params;
+  params.push_rate = 0.0;
+  params.inattentive_share = 0.0;
+  params.heedless_share = heedless;
+  Visit run = make_run(60, 4, robot_at(6.0, 6.0), params);
+  int touches = 0;
+  for (int i = 0; i < 1200; ++i) {
+    run.steps(0.1);
+    for (const Person& person : run.crowd.people()) {
+      EXPECT_EQ(person.is_heedless, heedless == 1.0);
+      const Disc part = nearest_part(person.posture(), run.robot.position, 1.2);
+      touches += distance(part.centre, run.robot.position) - part.radius - run.robot.radius < 0.03 ? 1 : 0;
+    }
+  }
+  return touches;
+}
+
+TEST(Crowd, TheHeedlessWalkIntoARobotThatOthersKeepOff) {
+  const int evading = touches_of(0.0);
+  EXPECT_GT(touches_of(1.0), 3 * evading + 20);
+}
+
+TEST(Crowd, WhoWalksFacesTheirWayAlsoBehindAPram) {
+  CrowdParams params;
+  params.push_rate = 0.0;
+  params.inattentive_share = 0.0;
+  params.physique.pram_share = 0.3;
+  Visit run = make_run(40, 8, robot_at(6.0, 6.0), params);
+  double facing = 0.0;
+  int walking = 0;
+  for (int i = 0; i < 600; ++i) {
+    run.steps(0.1);
+    for (const Person& person : run.crowd.people()) {
+      const double speed = norm(person.velocity);
+      if (speed < 0.5) continue;
+      ++walking;
+      facing += dot(person.gait.facing(), person.velocity) / speed;
+    }
+  }
+  EXPECT_GT(walking, 1000);
+  EXPECT_GT(facing / walking, 0.9);
+}
+
 TEST(Crowd, ChildrenWhoRompKeepToTheirGroundAndHeedNoHorn) {
   Visit run = make_run(0, 6, robot_at(5.0, 5.0));
   run.steps(0.1);

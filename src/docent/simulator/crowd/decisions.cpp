@@ -185,7 +185,8 @@ void Crowd::take_interest(std::size_t index, const Sight& sight, double now) {
   const bool is_free =
       person.activity == Activity::stroll || person.activity == Activity::look || person.activity == Activity::run;
   if (!is_free) return;
-  if (person.is_child && person.activity != Activity::run && rng_.chance(params_.run_rate * kDecisionPeriod)) {
+  if (person.is_child && person.activity != Activity::run &&
+      rng_.chance((person.is_heedless ? params_.heedless_run_rate : params_.run_rate) * kDecisionPeriod)) {
     person.activity = Activity::run;
     person.until = now + rng_.uniform(5.0, 12.0);
     person.has_goal = false;

@@ -6,6 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 #include "docent/simulator/crowd/replay.h"
+#include "docent/simulator/physique/slice.h"
 
 namespace docent::simulator {
 
@@ -33,8 +34,8 @@ enum class Activity {
 struct alignas(64) Person {
   Point2 position{};
   Point2 velocity{};
-  Point2 wanted{};  ///< velocity that they try to take
-  double radius = 0.25;
+  Point2 wanted{};                      ///< velocity that they try to take
+  double radius = 0.25;                 ///< [m] the room that others leave them; their body may reach farther
   double room = 0.0;                    ///< [m] by which the clearance at `roomy_at` was more than this person needs
   Point2 roomy_at{};                    ///< where the clearance was looked up last
   std::array<std::uint16_t, 8> near{};  ///< indices of those within reach
@@ -46,6 +47,8 @@ struct alignas(64) Person {
   bool has_arrived = false;     ///< for those who stand in the way: reached the goal
   bool is_inattentive = false;  ///< notices the robot late
   bool ignores_robot = false;   ///< walks and stands as if it were not there
+  bool is_heedless = false;     ///< never looks; as a child, runs about besides
+  Gait gait;
 
   bool is_child = false;
   double height = 1.7;
@@ -64,6 +67,7 @@ struct alignas(64) Person {
   double keeps_distance = 1.0;  ///< [m] to the robot's outline, for followers and listeners
 
   Walk walk;  ///< for the recorded
+  Physique physique = one_disc(0.25);
 
   double leaves_at = 0.0;
   double bored_until = 0.0;  ///< takes no interest in the robot before
@@ -72,6 +76,9 @@ struct alignas(64) Person {
   double reacts_at = std::numeric_limits<double>::infinity();  ///< begins to step aside
   Point2 progress_from{};
   double progress_at = 0.0;
+
+  /// As they stand now. It must not outlive them.
+  [[nodiscard]] Posture posture() const { return {position, gait.facing(), gait.swing(), &physique}; }
 };
 
 /// What people see of the robot.

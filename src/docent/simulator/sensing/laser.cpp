@@ -41,7 +41,7 @@ void LaserScanner::see_body(std::span<const Disc> parts) {
   for (const Disc& part : parts) parts_.push_back({inverse(base_from_scanner_) * part.centre, part.radius});
 }
 
-void LaserScanner::meet(Point2 centre, double radius, std::int32_t person) {
+void LaserScanner::meet(Point2 centre, double radius, std::int32_t disc) {
   const double away = norm(centre);
   const double half_angle = away > radius ? std::asin(radius / away) : 3.2;
   const double bearing = std::atan2(centre.y, centre.x);
@@ -55,13 +55,13 @@ void LaserScanner::meet(Point2 centre, double radius, std::int32_t person) {
       const auto range = ray_distance({}, rays_[i], centre, radius);
       if (range && *range < ideal_[i]) {
         ideal_[i] = *range;
-        sweep_.persons[i] = person;
+        sweep_.discs[i] = disc;
       }
     }
   }
 }
 
-const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span<const Disc> people,
+const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span<const Disc> discs,
                                                const Pose2& world_from_base) {
   const auto beams = static_cast<std::size_t>(params_.beams);
   const Pose2 world_from_scanner = world_from_base * base_from_scanner_;
@@ -69,7 +69,7 @@ const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span
   const double heading = world_from_scanner.theta.radians();
   ideal_.resize(beams);
   sweep_.ranges.resize(beams);
-  sweep_.persons.assign(beams, -1);
+  sweep_.discs.assign(beams, -1);
 
   for (std::size_t i = 0; i < beams; ++i) {
     const double bearing = heading + params_.first_bearing + static_cast<double>(i) * params_.bearing_step;
@@ -81,13 +81,13 @@ const LaserScanner::Sweep& LaserScanner::sweep(const RayCaster& walls, std::span
     }
   }
   const Pose2 scanner_from_world = inverse(world_from_scanner);
-  for (std::size_t person = 0; person < people.size(); ++person) {
-    const Disc& disc = people[person];
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& disc = discs[i];
     const double reach = params_.max_range + disc.radius;
     const Point2 offset = disc.centre - origin;
     if (dot(offset, offset) > 1.01 * reach * reach) continue;  // most are out of reach
     const Point2 centre = scanner_from_world * disc.centre;
-    if (norm(centre) <= reach) meet(centre, disc.radius, static_cast<std::int32_t>(person));
+    if (norm(centre) <= reach) meet(centre, disc.radius, static_cast<std::int32_t>(i));
   }
   for (const Disc& part : parts_) meet(part.centre, part.radius, -1);
   for (std::size_t i = 0; i < beams; ++i) {

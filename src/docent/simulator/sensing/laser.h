@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "docent/base/random.h"
+#include "docent/simulator/physique/disc.h"
 #include "docent/simulator/sensing/ray_caster.h"
 
 namespace docent::simulator {
-
-/// A person as a sensor meets them.
-struct Disc {
-  Point2 centre;  ///< [m], world
-  double radius = 0.25;
-};
 
 /// The true scanner. The robot knows none of this.
 struct LaserParams {
@@ -32,7 +27,7 @@ struct LaserParams {
   double mount_offset = 0.01;                   ///< [m] largest displacement
 };
 
-/// A scanner at the body's centre height. Noise, quantisation, outliers, mixed pixels and misalignment come from its
+/// A scanner in a level plane. Noise, quantisation, outliers, mixed pixels and misalignment come from its
 /// own stream of random numbers.
 class LaserScanner {
  public:
@@ -40,11 +35,11 @@ class LaserScanner {
   LaserScanner(const LaserParams& params, const Pose2& base_from_nominal, Rng rng);
 
   struct Sweep {
-    std::vector<float> ranges;          ///< [m], one a beam
-    std::vector<std::int32_t> persons;  ///< index of the person each beam ideally ends on, -1 for none
+    std::vector<float> ranges;        ///< [m], one a beam
+    std::vector<std::int32_t> discs;  ///< index of the disc each beam ideally ends on, -1 for none
   };
-  /// Takes one scan. @param people  those who may be met; any order. O(beams * cells + people).
-  [[nodiscard]] const Sweep& sweep(const RayCaster& walls, std::span<const Disc> people, const Pose2& world_from_base);
+  /// Takes one scan. @param discs  what of people is in its plane; any order. O(beams * cells + discs).
+  [[nodiscard]] const Sweep& sweep(const RayCaster& walls, std::span<const Disc> discs, const Pose2& world_from_base);
 
   /// What of the body stands in the scanner's plane, base frame: it sees that in every sweep.
   void see_body(std::span<const Disc> parts);
@@ -56,8 +51,8 @@ class LaserScanner {
 
  private:
   [[nodiscard]] double measure(double ideal, double neighbour);
-  /// Shortens the beams that meet a disc, scanner frame; `person`: its number, -1 for none.
-  void meet(Point2 centre, double radius, std::int32_t person);
+  /// Shortens the beams that meet a disc, scanner frame; `disc`: its number, -1 for none.
+  void meet(Point2 centre, double radius, std::int32_t disc);
 
   LaserParams params_;
   Pose2 base_from_scanner_;

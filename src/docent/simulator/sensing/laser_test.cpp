@@ -66,8 +66,8 @@ TEST(Laser, MeetsPeopleAllRoundAndSaysWhom) {
     int met = 0;
     for (LaserScanner* scanner : {&front, &rear}) {
       const auto& sweep = scanner->sweep(walls, people, pose);
-      for (std::size_t i = 0; i < sweep.persons.size(); ++i) {
-        if (sweep.persons[i] < 0) continue;
+      for (std::size_t i = 0; i < sweep.discs.size(); ++i) {
+        if (sweep.discs[i] < 0) continue;
         ++met;
         EXPECT_GT(sweep.ranges[i], 1.6F);
         EXPECT_LT(sweep.ranges[i], 2.1F);
