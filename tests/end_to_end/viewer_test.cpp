@@ -120,7 +120,7 @@ TEST(Viewer, SeesBeliefAndPeopleAndTellsTheRobotWhereItStands) {
   const TemporaryFolder folder;
   RobotWatch watch{kDomain};
   Person person;
-  const Viewer<geometry_msgs_msg_dds__PoseArray_> cloud{"rt/particle_cloud", "geometry_msgs/msg/PoseArray", true};
+  const Viewer<geometry_msgs_msg_dds__PoseArray_> cloud{"rt/docent/belief_poses", "geometry_msgs/msg/PoseArray", true};
   const Viewer<visualization_msgs_msg_dds__MarkerArray_> people{"rt/docent/people_markers",
                                                                 "visualization_msgs/msg/MarkerArray", false};
   ASSERT_TRUE(cloud.is_good() && people.is_good());

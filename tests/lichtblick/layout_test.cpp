@@ -23,7 +23,7 @@ const std::map<std::string, std::string> kDrawn{
     {"/docent/museum_markers", "visualization_msgs/msg/MarkerArray"},
     {"/docent/people_markers", "visualization_msgs/msg/MarkerArray"},
     {"/docent/path", "nav_msgs/msg/Path"},
-    {"/particle_cloud", "geometry_msgs/msg/PoseArray"},
+    {"/docent/belief_poses", "geometry_msgs/msg/PoseArray"},
     {"/amcl_pose", "geometry_msgs/msg/PoseWithCovarianceStamped"},
     {"/scan_front", "sensor_msgs/msg/LaserScan"},
     {"/scan_rear", "sensor_msgs/msg/LaserScan"},

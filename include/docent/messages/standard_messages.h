@@ -273,6 +273,25 @@ struct CompressedImage {
     v("data", m.data);
   }
 };
+struct Image {
+  static constexpr const char* kType = "sensor_msgs/msg/Image";
+  std_msgs::Header header;              ///< frame of the camera: x to the right, y down, z into the picture
+  std::uint32_t height = 0, width = 0;  ///< [pixels]
+  std::string encoding;                 ///< of a pixel: rgb8, bgr8, rgba8, bgra8, mono8, …
+  std::uint8_t is_bigendian = 0;        ///< matters where a channel has more than a byte
+  std::uint32_t step = 0;               ///< [bytes] of a row
+  std::vector<std::uint8_t> data;       ///< row by row from the top
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("height", m.height);
+    v("width", m.width);
+    v("encoding", m.encoding);
+    v("is_bigendian", m.is_bigendian);
+    v("step", m.step);
+    v("data", m.data);
+  }
+};
 }  // namespace sensor_msgs
 
 namespace nav_msgs {
@@ -341,7 +360,8 @@ struct KeyValue {
 };
 struct DiagnosticStatus {
   static constexpr const char* kType = "diagnostic_msgs/msg/DiagnosticStatus";
-  std::uint8_t level = 0;  ///< 0 ok, 1 warn, 2 error, 3 stale
+  static constexpr const char* kOctetField = "level";  ///< a `byte` to ROS 2, which is another type than uint8
+  std::uint8_t level = 0;                              ///< 0 ok, 1 warn, 2 error, 3 stale
   std::string name, message, hardware_id;
   std::vector<KeyValue> values;
   template <class Self, class V>

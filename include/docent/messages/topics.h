@@ -5,6 +5,7 @@
 #include "docent/base/time.h"
 #include "docent/messages/docent_messages.h"
 #include "docent/messages/message_fitness.h"
+#include "docent/messages/nav2_messages.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/messages/visualization_messages.h"
 
@@ -55,11 +56,15 @@ inline constexpr Topic<docent_msgs::ObstacleLines> kObstacleLines{"obstacle_line
 /// hundred.
 inline constexpr Topic<sensor_msgs::CompressedImage> kCamera{"camera/image/compressed", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::CompressedImage> kSceneCamera{"scene_camera/image/compressed", Qos::sensor, 1};
+/// The same from drivers that do not compress, which then need no topic of a compressed picture.
+inline constexpr Topic<sensor_msgs::Image> kCameraImage{"camera/image", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::Image> kSceneCameraImage{"scene_camera/image", Qos::sensor, 1};
 inline constexpr Topic<docent_msgs::CameraView> kSceneCameraView{"scene_camera/view", Qos::command, 0, 2.0};
 inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command, 0, 0.3};
 // Frames.
 inline constexpr Topic<tf2_msgs::TFMessage> kTransforms{"tf", Qos::sensor};
-inline constexpr Topic<tf2_msgs::TFMessage> kStaticTransforms{"tf_static", Qos::state};
+/// Each of several programs says its own part once: a reader must keep them all, and tf2's keeps as many.
+inline constexpr Topic<tf2_msgs::TFMessage> kStaticTransforms{"tf_static", Qos::state, 100};
 // State estimation.
 inline constexpr Topic<nav_msgs::OccupancyGrid> kStaticMap{"map", Qos::state};
 inline constexpr Topic<nav_msgs::OccupancyGrid> kLiveMap{"docent/live_map", Qos::state};
@@ -69,6 +74,8 @@ inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pos
 /// From a person with rviz2 or Lichtblick: here stands the robot.
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kInitialPose{"initialpose", Qos::command, 0, 2.0,
                                                                               fault_of_initial_pose};
+/// Likewise: there shall it go. Obeyed where mission.goal_poses says so.
+inline constexpr Topic<geometry_msgs::PoseStamped> kGoalPose{"goal_pose", Qos::command, 0, 2.0, fault_of_goal_pose};
 inline constexpr Topic<docent_msgs::Exploration> kExploration{"docent/exploration", Qos::state};
 inline constexpr Topic<docent_msgs::ExplorationOrder> kExplorationOrder{"docent/exploration_order", Qos::state};
 inline constexpr Topic<docent_msgs::Calibration> kCalibration{"docent/calibration", Qos::state};
@@ -103,7 +110,9 @@ inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
 inline constexpr Topic<docent_msgs::Reaction> kReaction{"docent/reaction", Qos::command};
 inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
 inline constexpr Topic<docent_msgs::Expression> kExpression{"docent/expression", Qos::sensor};
-/// The head, for robots that have one; see head_module.h.
+/// Where the joints of head and face shall be, for robots that have them; see head_module.h.
+inline constexpr Topic<sensor_msgs::JointState> kHeadCommand{"head/joint_command", Qos::command, 0, 0.5};
+/// Where the joints of the base are, as its drivers measure them. Recorded; no module reads it.
 inline constexpr Topic<sensor_msgs::JointState> kJointStates{"joint_states", Qos::sensor};
 /// A press that comes late means another question.
 inline constexpr Topic<docent_msgs::Button> kButton{"docent/button", Qos::command, 0, 1.0};
@@ -117,7 +126,9 @@ inline constexpr Topic<docent_msgs::Limits> kLimits{"docent/limits", Qos::state}
 inline constexpr Topic<docent_msgs::MuseumMoved> kMuseumMoved{"docent/museum_moved", Qos::command, 0, 5.0};
 inline constexpr Topic<docent_msgs::Health> kHealth{"docent/health", Qos::command};
 // For viewers of ROS 2. No module of the robot reads them.
-inline constexpr Topic<geometry_msgs::PoseArray> kParticleCloud{"particle_cloud", Qos::state};
+inline constexpr Topic<nav2_msgs::ParticleCloud> kParticleCloud{"particle_cloud", Qos::state};
+inline constexpr Topic<geometry_msgs::PoseArray> kBeliefPoses{"docent/belief_poses", Qos::state};
+inline constexpr Topic<diagnostic_msgs::DiagnosticArray> kDiagnostics{"diagnostics", Qos::command};
 inline constexpr Topic<visualization_msgs::MarkerArray> kPeopleMarkers{"docent/people_markers", Qos::sensor};
 inline constexpr Topic<visualization_msgs::MarkerArray> kMuseumMarkers{"docent/museum_markers", Qos::state};
 // Ground truth: another DDS domain, one channel of a recording. No module of the robot may name these.
@@ -149,7 +160,8 @@ void for_each_robot_topic(F&& f) {
       f(kTaskState), f(kEvent);
   f(kReaction), f(kGaze), f(kExpression), f(kButton), f(kButtonLamps), f(kSay), f(kSpeechState), f(kHorn), f(kMusic),
       f(kSoundState), f(kLimits), f(kSteering), f(kStop), f(kMuseumMoved), f(kHealth);
-  f(kInitialPose), f(kParticleCloud), f(kPeopleMarkers), f(kMuseumMarkers), f(kJointStates);
+  f(kInitialPose), f(kGoalPose), f(kParticleCloud), f(kBeliefPoses), f(kPeopleMarkers), f(kMuseumMarkers);
+  f(kHeadCommand), f(kJointStates), f(kDiagnostics), f(kCameraImage), f(kSceneCameraImage);
 }
 /// Calls f(topic) for every topic of the truth.
 template <class F>

@@ -23,8 +23,11 @@ struct RecordedTopic {
 
 /// Gets each message.
 using TopicHandler = std::function<void(const transport::TopicInfo& topic, const std::shared_ptr<const void>& message)>;
-/// Subscribes to every topic of the robot, or to those of the truth, which live on a bus of their own.
-void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler);
+/// Whether a topic is to be subscribed to.
+using TopicFilter = std::function<bool(const transport::TopicInfo& topic)>;
+/// Subscribes to every topic of the robot, or to those that `is_wanted` names; or to those of the truth, which live on
+/// a bus of their own.
+void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler, const TopicFilter& is_wanted = {});
 /// Likewise.
 void subscribe_truth_topics(transport::Bus& truth, const TopicHandler& handler);
 

@@ -22,6 +22,8 @@ struct ddsi_sertype;
 
 namespace docent::transport {
 
+class RosGraph;
+
 /// The highest domain whose ports fit below 65536.
 inline constexpr int kMaxDdsDomain = 230;
 /// Where the simulator publishes what is true: a domain that no module of the robot is in (architecture 10.1).
@@ -34,6 +36,10 @@ struct DdsOptions {
   /// Faults worth a line: a peer with another quality of service, damaged samples. Called on the bus's thread.
   std::function<void(const std::string&)> warn;
   bool stamped_commands = false;  ///< cmd_vel is a TwistStamped on the wire, else a Twist
+  std::string node = "docent";    ///< of ROS 2: who `ros2 node list` says it is, in the name space of `name_prefix`
+  /// Topics that are called otherwise on the wire: {"scan_front", "lidar/scan"}. One that begins with a slash has no
+  /// prefix.
+  std::map<std::string, std::string, std::less<>> renamed{};
 };
 
 /// The DDS body of the bus: Cyclone DDS, seen by ROS 2 as an ordinary robot (architecture 4). Loopback only, unless
@@ -148,6 +154,7 @@ class DdsBus final : public Bus {
   DdsOptions options_;
   std::int32_t participant_ = 0;
   std::int32_t own_domain_ = 0;  ///< 0 where CYCLONEDDS_URI rules
+  std::unique_ptr<RosGraph> graph_;
   std::map<std::string, DdsTopic> topics_;
   std::int32_t publications_ = 0;               ///< reads what DDS tells of all writers; 0: nobody has asked
   std::map<std::string, std::int32_t> probes_;  ///< by topic, readers that nobody listens to: whose writers live

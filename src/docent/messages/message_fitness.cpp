@@ -47,6 +47,11 @@ MessageFault fault_of_initial_pose(const geometry_msgs::PoseWithCovarianceStampe
   return {};
 }
 
+MessageFault fault_of_goal_pose(const geometry_msgs::PoseStamped& pose) {
+  if (pose.header.frame_id != "map") return {"frame_id", "is not map"};
+  return {};
+}
+
 MessageFault fault_of(const sensor_msgs::Range& range) {
   constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
   if (const MessageFault fault = fault_of(range.header)) return fault;
@@ -66,6 +71,15 @@ MessageFault fault_of(const sensor_msgs::CompressedImage& picture) {
   if (const MessageFault fault = fault_of(picture.header)) return fault;
   if (picture.format.size() > kLongestFrame) return {"format", "is too long"};
   if (picture.data.size() > kMostPictureBytes) return {"data", "is more than 2 MB"};
+  return {};
+}
+
+MessageFault fault_of(const sensor_msgs::Image& picture) {
+  if (const MessageFault fault = fault_of(picture.header)) return fault;
+  if (picture.encoding.size() > kLongestFrame) return {"encoding", "is too long"};
+  if (picture.data.size() > kMostImageBytes) return {"data", "is more than 64 MB"};
+  if (picture.data.size() != std::uint64_t{picture.step} * picture.height) return {"data", "does not fill the picture"};
+  if (picture.width > picture.step) return {"step", "is less than a row has"};
   return {};
 }
 

@@ -29,6 +29,7 @@ inline constexpr std::size_t kMostBelievedCells = 8192;  ///< architecture 10.5
 inline constexpr std::size_t kMostItems = 1000000;       ///< of any list
 inline constexpr std::size_t kMostText = 100000;         ///< [bytes]
 inline constexpr std::size_t kMostPictureBytes = 2'000'000;  ///< of a compressed picture
+inline constexpr std::size_t kMostImageBytes = 64'000'000;   ///< of one that is not compressed
 inline constexpr std::size_t kLongestFrame = 255;            ///< [bytes] of a frame's name
 
 /// What is wrong with a message; both null: nothing.
@@ -49,12 +50,16 @@ struct MessageFault {
 /// Of a place that the robot is told: in the map's frame, and so sure of it that it names a place. Of the covariance x,
 /// y and yaw count.
 [[nodiscard]] MessageFault fault_of_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& pose);
+/// Of a place to go to: in the map's frame.
+[[nodiscard]] MessageFault fault_of_goal_pose(const geometry_msgs::PoseStamped& pose);
 /// Likewise the reading itself may be anything.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::Range& range);
 /// Only the charge counts: drivers leave what they do not measure at any value.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::BatteryState& battery);
 /// A file of some size, also an empty one, as markers hold; whether it is a picture, pictures/jpeg knows.
 [[nodiscard]] MessageFault fault_of(const sensor_msgs::CompressedImage& picture);
+/// Rows that fill it; whether the page can show it, modules/web knows.
+[[nodiscard]] MessageFault fault_of(const sensor_msgs::Image& picture);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::CameraView& view);
 [[nodiscard]] MessageFault fault_of(const docent_msgs::Steering& steering);
 /// Likewise covariances are not looked at.

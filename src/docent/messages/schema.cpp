@@ -38,17 +38,12 @@ std::string fields_as_ros2msg(const MessageSchema& schema) {
 }
 
 std::string idl_type(const FieldSchema& field) {
-  static const std::map<std::string, std::string> kNames{{"bool", "boolean"},
-                                                         {"int8", "int8"},
-                                                         {"uint8", "octet"},
-                                                         {"int16", "short"},
-                                                         {"uint16", "unsigned short"},
-                                                         {"int32", "long"},
-                                                         {"uint32", "unsigned long"},
-                                                         {"int64", "long long"},
-                                                         {"uint64", "unsigned long long"},
-                                                         {"float32", "float"},
-                                                         {"float64", "double"},
+  static const std::map<std::string, std::string> kNames{{"bool", "boolean"},    {"byte", "octet"},
+                                                         {"int8", "int8"},       {"uint8", "octet"},
+                                                         {"int16", "short"},     {"uint16", "unsigned short"},
+                                                         {"int32", "long"},      {"uint32", "unsigned long"},
+                                                         {"int64", "long long"}, {"uint64", "unsigned long long"},
+                                                         {"float32", "float"},   {"float64", "double"},
                                                          {"string", "string"}};
   return field.is_message ? dds_type_name(field.type) : kNames.at(field.type);
 }

@@ -16,7 +16,7 @@ namespace docent {
 struct FieldSchema {
   enum class Shape { single, sequence, array };
   std::string name;
-  std::string type;  ///< "float64", "string", … or a message's "geometry_msgs/msg/Pose"
+  std::string type;  ///< "float64", "string", "byte", … or a message's "geometry_msgs/msg/Pose"
   bool is_message = false;
   Shape shape = Shape::single;
   std::size_t size = 0;  ///< of an array
@@ -38,6 +38,7 @@ class SchemaCollector {
     if (contains(T::kType)) return;
     MessageSchema schema{T::kType, {}};
     FieldVisitor visitor{*this, schema};
+    if constexpr (requires { T::kOctetField; }) visitor.octet_field = T::kOctetField;
     T message;
     T::visit(message, visitor);
     schemas_.push_back(std::move(schema));
@@ -48,11 +49,13 @@ class SchemaCollector {
   struct FieldVisitor {
     SchemaCollector& collector;
     MessageSchema& schema;
+    const char* octet_field = nullptr;  ///< the one that ROS 2 calls byte
     template <class F>
     void operator()(const char* name, const F& /*field*/) {
       FieldSchema field;
       field.name = name;
       describe(static_cast<const F*>(nullptr), field);
+      if (octet_field != nullptr && field.name == octet_field) field.type = "byte";
       schema.fields.push_back(std::move(field));
     }
     template <class F>

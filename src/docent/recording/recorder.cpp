@@ -3,19 +3,44 @@
 #include "docent/base/check.h"
 #include "docent/messages/schema.h"
 #include "docent/recording/older_layout.h"
+#include "docent/transport/type_hash.h"
+#include "docent/transport/wire_qos.h"
 
 namespace docent::recording {
 namespace {
 
-/// What ros2 bag wants to know to play a topic as it was offered.
-std::string qos_profile(Qos qos) {
-  constexpr const char* kForEver = "    sec: 9223372036\n    nsec: 854775807\n";
-  const bool reliable = qos != Qos::sensor;
-  const bool latched = qos == Qos::state;
-  return std::string{"- history: 1\n  depth: "} + (latched ? "1" : "10") +
-         "\n  reliability: " + (reliable ? "1" : "2") + "\n  durability: " + (latched ? "1" : "2") + "\n  deadline:\n" +
-         kForEver + "  lifespan:\n" + kForEver + "  liveliness: 1\n  liveliness_lease_duration:\n" + kForEver +
-         "  avoid_ros_namespace_conventions: false\n";
+// Numbers of rmw_qos_…_policy_t.
+constexpr int kKeepLast = 1;
+constexpr int kReliable = 1, kBestEffort = 2;
+constexpr int kTransientLocal = 1, kVolatile = 2;
+constexpr int kAutomatic = 1;
+
+std::string lines(const char* key, int number) {
+  return std::string{"  "} + key + ": " + std::to_string(number) + "\n";
+}
+
+std::string lines(const char* key, std::int64_t seconds, std::int64_t nanoseconds) {
+  return std::string{"  "} + key + ":\n    sec: " + std::to_string(seconds) +
+         "\n    nsec: " + std::to_string(nanoseconds) + "\n";
+}
+
+std::string lines(const char* key, Duration duration) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  if (duration.count() == 0) return lines(key, 9223372036, 854775807);  // RMW_DURATION_INFINITE
+  return lines(key, duration.count() / kSecond, duration.count() % kSecond);
+}
+
+/// What rosbag2 keeps of a topic beside its type: with which quality of service it was offered, so that `ros2 bag play`
+/// offers the same. Docent's is that of the wire; of a driver's topic nobody notes the driver's own, and what is
+/// offered here matches every reader that the driver's did. As YAML, with the policies as numbers, which rosbag2 of
+/// Humble and of Jazzy reads.
+std::string offered_qos_profiles(const transport::TopicInfo& topic) {
+  const transport::WireQos qos = transport::offered_qos(topic);
+  return "- history: " + std::to_string(kKeepLast) + "\n" + lines("depth", qos.depth) +
+         lines("reliability", qos.is_reliable ? kReliable : kBestEffort) +
+         lines("durability", qos.is_latched ? kTransientLocal : kVolatile) + lines("deadline", Duration{0}) +
+         lines("lifespan", Duration{0}) + lines("liveliness", kAutomatic) +
+         lines("liveliness_lease_duration", qos.lease) + "  avoid_ros_namespace_conventions: false\n";
 }
 
 std::map<std::string, RecordedTopic, std::less<>> all_topics() {
@@ -26,6 +51,11 @@ std::map<std::string, RecordedTopic, std::less<>> all_topics() {
   for_each_robot_topic(add);
   for_each_truth_topic(add);
   return topics;
+}
+
+/// A topic that had another type once. Only people looked at it, so that no reader of recordings misses it.
+bool is_of_older_type(const McapChannel& channel) {
+  return channel.topic == "/particle_cloud" && channel.type == geometry_msgs::PoseArray::kType;
 }
 
 /// Docent's own messages of a recording, by the schemas that it embeds.
@@ -53,8 +83,11 @@ void subscribe(transport::Bus& bus, const transport::TopicInfo& info, const Topi
 
 }  // namespace
 
-void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler) {
-  for_each_robot_topic([&](const auto& topic) { subscribe(bus, transport::topic_info(topic), handler); });
+void subscribe_robot_topics(transport::Bus& bus, const TopicHandler& handler, const TopicFilter& is_wanted) {
+  for_each_robot_topic([&](const auto& topic) {
+    const auto info = transport::topic_info(topic);
+    if (!is_wanted || is_wanted(info)) subscribe(bus, info, handler);
+  });
 }
 
 void subscribe_truth_topics(transport::Bus& truth, const TopicHandler& handler) {
@@ -84,7 +117,8 @@ Result<void> Recorder::write(const transport::TopicInfo& topic, Time time, const
                                         "ros2msg",
                                         known->schema,
                                         "cdr",
-                                        {{"offered_qos_profiles", qos_profile(topic.qos)}}});
+                                        {{"offered_qos_profiles", offered_qos_profiles(topic)},
+                                         {"topic_type_hash", transport::type_hash_of(topic.type->name)}}});
     if (!channel) return tl::unexpected<Error>(channel.error());
     place = channels_.emplace(topic.name, *channel).first;
   }
@@ -99,6 +133,7 @@ Result<void> read_recording(McapReader& reader, const McapReader::Selection& sel
     const RecordedTopic* topic = find_recorded_topic(message.channel.topic);
     if (topic == nullptr) return true;
     const auto at = [&] { return " at " + std::to_string(to_seconds(message.log_time)) + " s"; };
+    if (is_of_older_type(message.channel)) return true;
     if (message.channel.type != topic->info.type->name) {
       decoded = fail(message.channel.topic + ": the recording has " + message.channel.type + ", not " +
                      topic->info.type->name);

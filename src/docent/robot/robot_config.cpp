@@ -40,6 +40,19 @@ Result<void> check_kind(const Scanner& scanner) {
   return {};
 }
 
+/// What ROS 2 allows: parts of letters, digits and underscores, none of which begins with a digit.
+bool is_topic(const std::string& name) {
+  char before = '/';
+  for (std::size_t i = name.starts_with('/') ? 1 : 0; i < name.size(); ++i) {
+    const char c = name[i];
+    const bool is_digit = c >= '0' && c <= '9';
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    if (before == '/' ? !is_letter : !(is_letter || is_digit || c == '/')) return false;
+    before = c;
+  }
+  return before != '/';
+}
+
 Result<void> check_scanners(const std::vector<Scanner>& scanners) {
   constexpr auto& kNames = RobotBody::kScannerNames;
   for (auto scanner = scanners.begin(); scanner != scanners.end(); ++scanner) {
@@ -56,6 +69,8 @@ Result<void> check_scanners(const std::vector<Scanner>& scanners) {
       return fail("body.scanners: the field of " + scanner->name + " must be > 0 and <= 360 degrees");
     if (!(scanner->height >= 0.02 && scanner->height <= 3.0))
       return fail("body.scanners: the height of " + scanner->name + " must be 0.02..3 m");
+    if (!scanner->topic.empty() && !is_topic(scanner->topic))
+      return fail("body.scanners: '" + scanner->topic + "' is no topic of ROS 2");
     if (auto valid = check_kind(*scanner); !valid) return valid;
   }
   return {};
@@ -122,6 +137,11 @@ std::optional<int> number_of(std::string_view frame, std::string_view prefix, in
 
 }  // namespace
 
+std::string RobotBody::topic_of(const Scanner& scanner) const {
+  if (!scanner.topic.empty()) return scanner.topic;
+  return scanners.size() == 1 ? "scan" : "scan_" + scanner.name;
+}
+
 Pose2 RobotBody::base_from_sonar(int index) const { return place_on_ring(index, sonars, sonar_radius); }
 std::string RobotBody::sonar_frame(int index) { return numbered("sonar_", index); }
 std::optional<int> RobotBody::sonar_of(std::string_view frame) const { return number_of(frame, "sonar_", sonars); }
@@ -176,7 +196,28 @@ Result<void> RobotConfig::read_shared() {
   auto body = section<RobotBody>("body");
   if (!body) return tl::unexpected<Error>(body.error());
   body_ = *body;
+  const auto look_for_mounts = [this](const YamlFile& file) {
+    const YAML::Node said = file.root()["body"];
+    if (!said.IsDefined() || !said.IsMap()) return;
+    const YAML::Node scanners = said["scanners"];
+    if (!scanners.IsDefined() || scanners.size() != body_.scanners.size()) return;
+    for (std::size_t i = 0; i < scanners.size(); ++i) {
+      const YAML::Node scanner = scanners[i];
+      body_.scanners[i].has_mount =
+          scanner["x"].IsDefined() || scanner["y"].IsDefined() || scanner["heading"].IsDefined();
+    }
+  };
+  look_for_mounts(file_);
+  for (const YamlFile& setting : settings_) look_for_mounts(setting);
   return {};
+}
+
+void RobotConfig::set_mount(std::size_t scanner, const Pose2& base_from_sensor, bool is_upside_down) {
+  Scanner& mounted = body_.scanners.at(scanner);
+  mounted.x = base_from_sensor.x;
+  mounted.y = base_from_sensor.y;
+  mounted.heading = base_from_sensor.theta.degrees();
+  mounted.upside_down = mounted.upside_down || is_upside_down;
 }
 
 Result<void> RobotConfig::refuse_section(const std::string& name, const std::string& why) const {

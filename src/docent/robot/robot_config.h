@@ -17,7 +17,7 @@ namespace docent::robot {
 
 /// A laser scanner and its place.
 struct Scanner {
-  std::string name = "front";         ///< of RobotBody::kScannerNames; "front" speaks on scan_front
+  std::string name = "front";         ///< of RobotBody::kScannerNames
   std::string frame = "laser_front";  ///< of its messages
   double x = 0.0, y = 0.0;            ///< [m], robot frame
   double heading = 0.0;               ///< [deg], robot frame: of the middle of its field
@@ -29,11 +29,14 @@ struct Scanner {
   double rate = 10.0;         ///< [Hz] of a simulated one
   bool clockwise = false;     ///< likewise: its beams go round so
   std::string no_return =
-      "greatest";        ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
-  double height = 0.38;  ///< [m] above the floor; below the waist it sees legs, and people are wider than these
+      "greatest";         ///< likewise: what it writes where nothing comes back: greatest, infinity or zero
+  double height = 0.38;   ///< [m] above the floor; below the waist it sees legs, and people are wider than these
+  std::string topic{};    ///< on which it speaks; "": scan_NAME, or scan where it is the only one
+  bool has_mount = true;  ///< not a key: whether x, y or heading is said; else /tf_static says where `frame` is
   template <class V>
   void visit(V& v) {
     v("name", name);
+    v("topic", topic);
     v("frame", frame);
     v("x", x);
     v("y", y);
@@ -96,6 +99,8 @@ struct RobotBody {
     v("infrared_radius", infrared_radius);
     v("tactile", tactile);
   }
+  /// On which a scanner of the body speaks, without a slash in front where the robot's prefix comes before it.
+  [[nodiscard]] std::string topic_of(const Scanner& scanner) const;
   [[nodiscard]] Pose2 base_from_sonar(int index) const;
   /// The frame of a sonar: sonar_00, sonar_01, … and back; nullopt for what is none of this body's.
   [[nodiscard]] static std::string sonar_frame(int index);
@@ -117,6 +122,8 @@ class RobotConfig {
   [[nodiscard]] Result<void> set(const std::string& assignment);
 
   [[nodiscard]] const RobotBody& body() const { return body_; }
+  /// Where the base says that a scanner is, for one without a mount of its own. @pre scanner < body().scanners.size()
+  void set_mount(std::size_t scanner, const Pose2& base_from_sensor, bool is_upside_down);
   /// Reads section `name` over the defaults of `params` (its visit and validate) and amends them; unknown keys are
   /// faults.
   template <class Params>

@@ -200,5 +200,36 @@ TEST(RobotBody, KnowsItsSonarsByTheirFrames) {
   EXPECT_FALSE(body.infrared_of("sonar_09"));
 }
 
+TEST(RobotConfig, AScannerSpeaksOnTheTopicThatIsSaid) {
+  RobotConfig config;
+  EXPECT_EQ(config.body().topic_of(config.body().scanners.at(1)), "scan_rear");
+  const auto topic_of_first = [&](const std::string& scanners) {
+    EXPECT_TRUE(config.set("body.scanners=[" + scanners + "]").has_value()) << scanners;
+    return config.body().topic_of(config.body().scanners.at(0));
+  };
+  EXPECT_EQ(topic_of_first("{name: rear, frame: a}"), "scan") << "the only one";
+  EXPECT_EQ(topic_of_first("{name: front, frame: a}, {name: rear, frame: b}"), "scan_front");
+  EXPECT_EQ(topic_of_first("{name: front, frame: a, topic: lidar/scan_2}"), "lidar/scan_2");
+  EXPECT_EQ(topic_of_first("{name: front, frame: a, topic: /scan}"), "/scan");
+  for (const char* none : {"2d", "/", "a//b", "'a b'", "scan/", "a-b", "a/2"}) {
+    EXPECT_FALSE(config.set(std::string{"body.scanners=[{name: front, frame: a, topic: "} + none + "}]").has_value())
+        << none;
+  }
+}
+
+TEST(RobotConfig, AMountIsSaidByAnyOfItsKeysElseByTheBase) {
+  RobotConfig config;
+  EXPECT_TRUE(config.body().scanners.at(0).has_mount);
+  ASSERT_TRUE(config.set("body.scanners=[{name: front, frame: a}, {name: rear, frame: b, y: 0}]").has_value());
+  EXPECT_FALSE(config.body().scanners.at(0).has_mount);
+  EXPECT_TRUE(config.body().scanners.at(1).has_mount);
+  ASSERT_TRUE(config.set("body.max_speed=0.5").has_value());
+  EXPECT_FALSE(config.body().scanners.at(0).has_mount) << "what is said of other things changes nothing";
+  config.set_mount(0, {0.1, -0.2, Angle::degrees(30.0)}, true);
+  EXPECT_EQ(config.body().scanners.at(0).x, 0.1);
+  EXPECT_NEAR(config.body().scanners.at(0).heading, 30.0, 1e-9);
+  EXPECT_TRUE(config.body().scanners.at(0).upside_down);
+}
+
 }  // namespace
 }  // namespace docent::robot

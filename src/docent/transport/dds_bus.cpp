@@ -10,7 +10,10 @@
 #include "docent/messages/schema.h"
 #include "docent/messages/topics.h"
 #include "docent/transport/cdr_sertype.h"
+#include "docent/transport/ros_graph.h"
 #include "docent/transport/stamped_twist.h"
+#include "docent/transport/type_hash.h"
+#include "docent/transport/wire_qos.h"
 
 namespace docent::transport {
 namespace {
@@ -27,75 +30,9 @@ constexpr const char* kConfig = R"(<CycloneDDS><Domain Id="any">
 <Internal><Watermarks><WhcHigh>32 MB</WhcHigh></Watermarks></Internal>
 </Domain></CycloneDDS>)";
 
-constexpr int kSensorDepth = 5;
-constexpr int kCommandDepth = 32;
-constexpr dds_duration_t kLiveliness = DDS_SECS(1);
-constexpr dds_duration_t kMaxBlocking = DDS_MSECS(10);
 constexpr std::size_t kStepsKept = 512;
 constexpr Duration kReaderWatch = std::chrono::milliseconds{500};
 constexpr Duration kRetryPeriod = std::chrono::milliseconds{100};
-
-int depth_of(const TopicInfo& info) {
-  if (info.depth > 0) return info.depth;
-  switch (info.qos) {
-    case Qos::sensor:
-      return kSensorDepth;
-    case Qos::state:
-      return 1;
-    case Qos::command:
-      return kCommandDepth;
-  }
-  return 1;
-}
-
-using QosPointer = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
-QosPointer base_qos(const TopicInfo& info) {
-  QosPointer qos{dds_create_qos(), dds_delete_qos};
-  const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
-  dds_qset_data_representation(qos.get(), 1, &representation);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth_of(info));
-  dds_qset_durability(qos.get(), info.qos == Qos::state ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  return qos;
-}
-
-QosPointer reader_qos(const TopicInfo& info) {
-  auto qos = base_qos(info);
-  const bool is_reliable = info.qos != Qos::sensor;
-  dds_qset_reliability(qos.get(), is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, kMaxBlocking);
-  return qos;
-}
-
-QosPointer writer_qos(const TopicInfo& info) {
-  auto qos = base_qos(info);
-  // Also sensors are offered reliably: our own readers ask for best effort and get just that, but many a ROS 2 tool
-  // asks for reliable odometry and frames and would find no match.
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking);
-  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kLiveliness);
-  dds_qset_writer_data_lifecycle(qos.get(), false);
-  if (info.qos == Qos::state) {
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth_of(info), DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  }
-  return qos;
-}
-
-const char* policy_name(std::uint32_t policy) {
-  switch (policy) {
-    case DDS_RELIABILITY_QOS_POLICY_ID:
-      return "reliability";
-    case DDS_DURABILITY_QOS_POLICY_ID:
-      return "durability";
-    case DDS_DEADLINE_QOS_POLICY_ID:
-      return "deadline";
-    case DDS_LIVELINESS_QOS_POLICY_ID:
-      return "liveliness";
-    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
-      return "data representation";
-    default:
-      return "quality of service";
-  }
-}
 
 }  // namespace
 
@@ -110,7 +47,9 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
     if (own_domain == DDS_RETCODE_PRECONDITION_NOT_MET) own_domain = 0;  // another bus of this process made it
     if (own_domain < 0) return fail(std::string{"DDS cannot start: "} + dds_strretcode(-own_domain));
   }
-  const dds_entity_t participant = dds_create_participant(domain_id, nullptr, nullptr);
+  const DdsQos qos{dds_create_qos()};
+  dds_qset_userdata(qos.get(), kParticipantUserData.data(), kParticipantUserData.size());
+  const dds_entity_t participant = dds_create_participant(domain_id, qos.get(), nullptr);
   if (participant < 0) {
     if (own_domain > 0) dds_delete(own_domain);
     return fail("DDS cannot join domain " + std::to_string(options.domain) + ": " + dds_strretcode(-participant));
@@ -120,7 +59,10 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
 }
 
 DdsBus::DdsBus(DdsOptions options, std::int32_t participant, std::int32_t own_domain)
-    : options_{std::move(options)}, participant_{participant}, own_domain_{own_domain} {
+    : options_{std::move(options)},
+      participant_{participant},
+      own_domain_{own_domain},
+      graph_{std::make_unique<RosGraph>(participant, options_.name_prefix, options_.node)} {
   steps_ms_.reserve(kStepsKept);
 }
 
@@ -131,6 +73,7 @@ DdsBus::~DdsBus() {
 
 void DdsBus::run(std::stop_token stop) {
   while (!stop.stop_requested()) {
+    if (graph_->is_new()) graph_->publish();
     std::vector<std::function<void()>> posts;
     Subscription* subscription = nullptr;
     {
@@ -204,8 +147,11 @@ void DdsBus::post(std::function<void()> action) {
 
 std::string DdsBus::wire_name(const TopicInfo& info) const {
   // A service's request is a topic, too, by ROS 2's rules for names.
-  const bool is_request = std::string_view{info.type->name}.ends_with("_Request");
-  return (is_request ? "rq/" : "rt/") + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + info.name;
+  const std::string kind = std::string_view{info.type->name}.ends_with("_Request") ? "rq" : "rt";
+  const auto renamed = options_.renamed.find(info.name);
+  const std::string name = renamed == options_.renamed.end() ? info.name : renamed->second;
+  if (name.starts_with('/')) return kind + name;
+  return kind + "/" + (options_.name_prefix.empty() ? "" : options_.name_prefix + "/") + name;
 }
 
 const TypeSupport* DdsBus::wire_support(const TopicInfo& info) const {
@@ -237,9 +183,11 @@ int DdsBus::add_publisher(const TopicInfo& info) {
         static_cast<DdsBus*>(bus)->warn_later(std::string{"a reader of "} + name + " asks for a " +
                                               policy_name(status.last_policy_id) + " that is not offered");
       });
-  const dds_entity_t writer = dds_create_writer(participant_, topic.entity, writer_qos(info).get(), listener);
+  const dds_entity_t writer =
+      dds_create_writer(participant_, topic.entity, dds_writer_qos(info, topic.support->name).get(), listener);
   dds_delete_listener(listener);
   DOCENT_CHECK(writer > 0);
+  graph_->add_writer(writer);
   writers_.push_back({writer, topic, info.qos == Qos::state, nullptr});
   return static_cast<int>(writers_.size()) - 1;
 }
@@ -308,11 +256,12 @@ void DdsBus::open_reader(Subscription& subscription) {
         asking.bus->warn_later("a writer of " + asking.name + " does not offer the " +
                                policy_name(status.last_policy_id) + " that is asked for");
       });
-  const dds_entity_t reader =
-      dds_create_reader(participant_, subscription.topic, reader_qos(subscription.info).get(), listener);
+  const dds_entity_t reader = dds_create_reader(
+      participant_, subscription.topic, dds_reader_qos(subscription.info, subscription.support->name).get(), listener);
   dds_delete_listener(listener);
   DOCENT_CHECK(reader > 0);
   subscription.reader = reader;
+  graph_->add_reader(reader);
 }
 
 void DdsBus::renew_deaf_readers() {
@@ -428,10 +377,10 @@ int DdsBus::foreign_endpoints(const std::string& wire_name) {
 int DdsBus::other_writers(const TopicInfo& topic) {
   auto [probe, is_new] = probes_.try_emplace(topic.name, 0);
   if (is_new) {
-    auto qos = base_qos(topic);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-    dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, kMaxBlocking);
-    probe->second = dds_create_reader(participant_, find_or_create(topic).entity, qos.get(), nullptr);
+    const DdsTopic probed = find_or_create(topic);
+    const DdsQos qos = dds_probe_qos(topic, probed.support->name);
+    probe->second = dds_create_reader(participant_, probed.entity, qos.get(), nullptr);
+    graph_->add_reader(probe->second);
   }
   const auto own = std::count_if(
       writers_.begin(), writers_.end(),

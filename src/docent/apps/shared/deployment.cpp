@@ -126,6 +126,16 @@ std::string default_state() {
   return std::string{home != nullptr && *home != '\0' ? home : "/tmp"} + "/.local/state/docent";
 }
 
+transport::DdsOptions Deployment::bus_options(int dds_domain, const std::string& process,
+                                              const robot::RobotBody& body) const {
+  transport::DdsOptions options{dds_domain, name, {}};
+  options.stamped_commands = body.stamped_commands;
+  options.node = "docent_" + process;
+  for (const robot::Scanner& scanner : body.scanners)
+    options.renamed[topics::scan_topic(scanner.name).name] = body.topic_of(scanner);
+  return options;
+}
+
 namespace {
 sigset_t end_signals() {
   sigset_t set;

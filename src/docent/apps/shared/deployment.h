@@ -9,6 +9,7 @@
 #include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
+#include "docent/transport/dds_bus.h"
 
 namespace CLI {
 class App;
@@ -40,6 +41,9 @@ struct Deployment {
   [[nodiscard]] Result<museum::SetupWork> work() const;
   /// @param further  sections beside `body` and those of the modules
   [[nodiscard]] Result<robot::RobotConfig> load_config(const std::vector<std::string>& further = {}) const;
+  /// How a process of this robot joins a domain of DDS: as the node docent_PROCESS, with the topics of this body.
+  [[nodiscard]] transport::DdsOptions bus_options(int dds_domain, const std::string& process,
+                                                  const robot::RobotBody& body) const;
   /// Makes the folder of the state; all that this process and its children write from then on is for its owner alone.
   [[nodiscard]] Result<void> prepare_state() const;
 };

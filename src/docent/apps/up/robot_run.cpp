@@ -179,6 +179,13 @@ void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
   });
 }
 
+std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
+  const auto config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
+  transport::DdsOptions dds = deployment.bus_options(deployment.domain, "up", config.body());
+  dds.warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
+  return value_or_fail(transport::DdsBus::create(std::move(dds)));
+}
+
 }  // namespace
 
 Result<void> own_state(const Deployment& deployment) {
@@ -209,9 +216,7 @@ void run_robot(const RobotRun& options) {
     if (from == Supervisor::From::child) return display.log_output(name, line);
     display.log(LogLevel::error, name, line);
   };
-  const auto bus = value_or_fail(
-      transport::DdsBus::create({options.deployment.domain, options.deployment.name,
-                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
+  const auto bus = join(options.deployment, display);
   Supervisor supervisor{value_or_fail(children_of(options, options.deployment.museum)), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;

@@ -14,6 +14,7 @@
 #include "docent/apps/shared/robot_maker.h"
 #include "docent/apps/up/simulator_process.h"
 #include "docent/apps/up/supervisor.h"
+#include "docent/modules/drive/base_mounts.h"
 #include "docent/modules/host/module_host.h"
 #include "docent/modules/host/process_class.h"
 #include "docent/transport/dds_bus.h"
@@ -34,10 +35,31 @@ std::string module_names() {
 }
 
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
-  transport::DdsOptions options{domain, deployment.name, {}};
+  const auto config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
+  transport::DdsOptions options = deployment.bus_options(domain, module, config.body());
   options.warn = [module](const std::string& text) { log_to_stderr(LogLevel::warning, module, text); };
-  options.stamped_commands = value_or_fail(deployment.load_config(), kExitBadConfiguration).body().stamped_commands;
   return value_or_fail(transport::DdsBus::create(std::move(options)));
+}
+
+/// Mounts that robot.yaml leaves to the base, before any module is made. A base that says nothing yet may not be there
+/// yet: the process ends with what is missing, and is started again.
+void await_mounts(const Deployment& deployment, const std::string& module, robot::RobotConfig& config) {
+  constexpr Duration kMountPatience = std::chrono::seconds{10};
+  constexpr Duration kMountStep = std::chrono::milliseconds{50};
+  const auto bus = join(deployment, deployment.domain, module);
+  modules::BaseMounts mounts{config.body()};
+  std::stop_source stop;
+  std::string missing;
+  bus->subscribe<tf2_msgs::TFMessage>(topics::kStaticTransforms,
+                                      [&](const auto& transforms) { mounts.hear_static(transforms); });
+  bus->subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [&](const auto& transforms) { mounts.hear(transforms); });
+  bus->every(kMountStep, [&] {
+    missing = mounts.set_in(config);
+    if (missing.empty()) stop.request_stop();
+  });
+  bus->after(kMountPatience, [&] { stop.request_stop(); });
+  bus->run(stop.get_token());
+  if (!missing.empty()) throw CommandFailed{missing};
 }
 
 void run(const RunOptions& options, RobotMaker& maker) {
@@ -60,6 +82,7 @@ void run(const RunOptions& options, RobotMaker& maker) {
   block_end_signals();
   // Before the bus: its threads take the class over.
   const std::string handicap = entry->is_urgent ? modules::enter_process_class(classes) : std::string{};
+  if (modules::wants_mounts_of_base(config.body())) await_mounts(deployment, options.module, config);
   auto dds_bus = join(deployment, deployment.domain, options.module);
   transport::DdsBus& bus = *dds_bus;
   const auto truth =

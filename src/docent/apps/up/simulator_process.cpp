@@ -7,6 +7,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/log.h"
 #include "docent/apps/shared/simulated_hardware.h"
+#include "docent/modules/drive/base_mounts.h"
 #include "docent/modules/perception/localize_module.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/transport/dds_bus.h"
@@ -128,11 +129,18 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   block_end_signals();
   const auto config = deployment.load_config();
   if (!config) return tl::unexpected<Error>(config.error());
-  auto robot_bus =
-      transport::DdsBus::create({deployment.domain, deployment.name, warn, config->body().stamped_commands});
+  const auto bus_in = [&](int domain) {
+    transport::DdsOptions dds = deployment.bus_options(domain, kSimulatorProcess, config->body());
+    dds.warn = warn;
+    return transport::DdsBus::create(std::move(dds));
+  };
+  auto robot_bus = bus_in(deployment.domain);
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
-  auto truth_bus = transport::DdsBus::create({transport::truth_domain(deployment.domain), deployment.name, warn});
+  auto truth_bus = bus_in(transport::truth_domain(deployment.domain));
   if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
+  // As the model of a base says where its scanners are, if robot.yaml does not.
+  if (modules::wants_mounts_of_base(config->body()))
+    (*robot_bus)->publisher(topics::kStaticTransforms).publish(modules::BaseMounts{config->body()}.transforms(true));
   const simulator::SimulatedMuseum museum{**robot_bus, **truth_bus, std::move(*simulation)};
   const std::jthread truth_thread{[&truth_bus](const std::stop_token& stop) { (*truth_bus)->run(stop); }};
   (*robot_bus)->run(end_signal());

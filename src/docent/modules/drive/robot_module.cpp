@@ -1,6 +1,7 @@
 #include "docent/modules/drive/robot_module.h"
 
 #include "docent/messages/conversions.h"
+#include "docent/modules/drive/base_mounts.h"
 #include "docent/modules/drive/create3_hazards.h"
 #include "docent/modules/drive/tf_odometry.h"
 #include "docent/modules/shared/stop_keeper.h"
@@ -37,10 +38,11 @@ class RobotModule final : public Module {
         watchdog_{context.config.body().watchdog, context.config.body().max_speed, context.config.body().max_turn_rate},
         velocity_{bus_.publisher(topics::kCommandVelocity)},
         transforms_{bus_.publisher(topics::kTransforms)},
+        mounts_{context.config.body()},
         stop_{context, "robot", [this] {
                 if (stop_.holds()) command_base();
               }} {
-    publish_mounts(context.config.body());
+    publish_mounts(context.config.body(), context.virtual_time);
     if (params_.create3) create3_.emplace(bus_, context.config.body().radius);
     bus_.subscribe<docent_msgs::Drive>(topics::kDrive, [this](const docent_msgs::Drive& drive) {
       watchdog_.receive(bus_.now(), {drive.linear, drive.angular});
@@ -57,6 +59,8 @@ class RobotModule final : public Module {
     bus_.subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [this](const tf2_msgs::TFMessage& transforms) {
       if (const auto odometry = from_tf_.take(transforms, bus_.now())) publish_odometry(*odometry);
     });
+    bus_.subscribe<tf2_msgs::TFMessage>(topics::kStaticTransforms,
+                                        [this](const auto& transforms) { mounts_.hear_static(transforms); });
     bus_.subscribe<sensor_msgs::BatteryState>(
         topics::kBattery, [this](const sensor_msgs::BatteryState& battery) { battery_ = battery.percentage; });
     bus_.every(seconds(1.0 / params_.rate), [this] { command_base(); });
@@ -76,6 +80,8 @@ class RobotModule final : public Module {
     ModuleHealth health = stop_.health();
     if (from_tf_.is_needed() && health.reason.empty())
       health.reason = "the base publishes no odom: its transform odom -> base_link is taken";
+    if (const std::string other = mounts_.contradictions(); !other.empty())
+      health.reason += (health.reason.empty() ? "" : "; ") + other;
     return health;
   }
 
@@ -86,19 +92,18 @@ class RobotModule final : public Module {
     velocity_.publish({{command.linear, 0.0, 0.0}, {0.0, 0.0, command.angular}});
   }
 
-  void publish_mounts(const robot::RobotBody& body) {
-    tf2_msgs::TFMessage mounts;
+  void publish_mounts(const robot::RobotBody& body, bool has_no_base) {
+    // Those that the base says itself are not said again; in virtual time there is none.
+    tf2_msgs::TFMessage mounts = mounts_.transforms(false);
+    if (has_no_base)
+      for (auto& mount : mounts_.transforms(true).transforms) mounts.transforms.push_back(std::move(mount));
+    for (auto& mount : mounts.transforms) mount.header.stamp = to_message(bus_.now());
     const auto add = [&](const std::string& frame, const Pose2& base_from_sensor) {
       mounts.transforms.push_back(
           {{to_message(bus_.now()), "base_link"},
            frame,
            {{base_from_sensor.x, base_from_sensor.y, 0.0}, to_quaternion(base_from_sensor.theta)}});
     };
-    for (const robot::Scanner& scanner : body.scanners) {
-      add(scanner.frame, scanner.base_from_sensor());
-      auto& turned = mounts.transforms.back().transform.rotation;
-      if (scanner.upside_down) turned = {turned.w, turned.z, 0.0, 0.0};  // half a turn about x before the yaw
-    }
     for (int i = 0; i < body.sonars; ++i) {
       add(robot::RobotBody::sonar_frame(i), body.base_from_sonar(i));
     }
@@ -116,6 +121,7 @@ class RobotModule final : public Module {
   robot::CommandWatchdog watchdog_;
   transport::Publisher<geometry_msgs::Twist> velocity_;
   transport::Publisher<tf2_msgs::TFMessage> transforms_;
+  BaseMounts mounts_;
   std::optional<transport::Publisher<nav_msgs::Odometry>> odometry_;  ///< once it has to make it of transforms
   TfOdometry from_tf_;
   std::optional<Create3Hazards> create3_;  ///< of a base of this kind

@@ -53,6 +53,20 @@ TEST_F(RobotModule, PassesACommandOnAtOnceThenRepeatsItWhileItIsFresh) {
     EXPECT_EQ(command.linear, command.at <= 1.013 + 0.3 + 1e-9 ? 0.4 : 0.0) << command.at;
 }
 
+TEST_F(RobotModule, WhatTheBaseSaysOtherwiseOfAMountIsNamed) {
+  const auto base = world->publisher(topics::kStaticTransforms);
+  start();
+  odometry.publish({});
+  base.publish({{{{{}, "base_link"}, "laser_front", {{0.01, 0.0, 0.3}, {}}}}});
+  run(0.1);
+  EXPECT_EQ(module->health().reason, "") << "a centimetre is none, and how high it is does not matter";
+  base.publish({{{{{}, "base_link"}, "laser_front", {{0.3, 0.0, 0.3}, {}}}}});
+  run(0.1);
+  EXPECT_EQ(module->health().state, "ready") << "what robot.yaml says counts";
+  EXPECT_NE(module->health().reason.find("/tf_static has scanner front at x 0.300"), std::string::npos)
+      << module->health().reason;
+}
+
 TEST_F(RobotModule, ASecondProgramThatCommandsTheBaseIsNamed) {
   start();
   odometry.publish({});

@@ -26,8 +26,9 @@ struct RecordParams {
 };
 
 bool is_picture(const transport::TopicInfo& topic) {
-  return topic.name == std::string_view{topics::kCamera.name} ||
-         topic.name == std::string_view{topics::kSceneCamera.name};
+  const std::string_view name = topic.name;
+  return name == topics::kCamera.name || name == topics::kSceneCamera.name || name == topics::kCameraImage.name ||
+         name == topics::kSceneCameraImage.name;
 }
 
 class RecordModule final : public Module {
@@ -44,11 +45,10 @@ class RecordModule final : public Module {
         if (!recording::recover_mcap(part, whole)) std::filesystem::rename(part, part.string() + ".unreadable");
       }
     }};
-    recording::subscribe_robot_topics(bus_,
-                                      [this, pictures = params.pictures](const transport::TopicInfo& topic,
-                                                                         const std::shared_ptr<const void>& message) {
-                                        if (pictures || !is_picture(topic)) write(topic, message);
-                                      });
+    // A picture that nobody wants shall not even come here: those that are not compressed are some 30 MB a second.
+    recording::subscribe_robot_topics(
+        bus_, [this](const auto& topic, const auto& message) { write(topic, message); },
+        [pictures = params.pictures](const transport::TopicInfo& topic) { return pictures || !is_picture(topic); });
     if (context.truth != nullptr) {
       const std::weak_ptr<RecordModule*> self = self_;
       recording::subscribe_truth_topics(*context.truth,

@@ -5,11 +5,14 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/visualization/belief_sample.h"
+#include "docent/visualization/diagnostics.h"
 #include "docent/visualization/museum_markers.h"
 #include "docent/visualization/people_markers.h"
 
 namespace docent::modules {
 namespace {
+
+constexpr Duration kDiagnosticsPeriod = std::chrono::seconds{1};  // what ROS 2's own drivers keep to
 
 /// Section `visualize`: what rviz2, Foxglove and Lichtblick are shown.
 struct VisualizeParams {
@@ -54,10 +57,15 @@ class VisualizeModule final : public Module {
       : bus_{context.bus},
         params_{params},
         cloud_{bus_.publisher(topics::kParticleCloud)},
+        poses_{bus_.publisher(topics::kBeliefPoses)},
         people_{bus_.publisher(topics::kPeopleMarkers)} {
     bus_.publisher(topics::kMuseumMarkers).publish(visualization::museum_markers(context.museum));
     bus_.subscribe<docent_msgs::Belief>(topics::kBelief, [this](const auto& belief) { show(belief); });
     bus_.subscribe<docent_msgs::People>(topics::kPeople, [this](const auto& people) { show(people); });
+    bus_.subscribe<docent_msgs::Health>(topics::kHealth,
+                                        [this](const auto& health) { diagnostics_.hear(health, bus_.now()); });
+    bus_.every(kDiagnosticsPeriod,
+               [this, out = bus_.publisher(topics::kDiagnostics)] { publish(out, diagnostics_.message(bus_.now())); });
   }
 
  private:
@@ -66,12 +74,17 @@ class VisualizeModule final : public Module {
     if (!belief_pace_.is_due(now)) return;
     auto sample = visualization::belief_sample(belief, params_.belief_poses);
     if (std::equal(sample.begin(), sample.end(), shown_.begin(), shown_.end(), is_same)) return;
-    geometry_msgs::PoseArray cloud;
-    cloud.header = belief.header;
-    for (const Pose2& pose : sample) cloud.poses.push_back(to_message(pose));
+    nav2_msgs::ParticleCloud cloud;
+    geometry_msgs::PoseArray poses;
+    cloud.header = poses.header = belief.header;
+    for (const Pose2& pose : sample) {
+      poses.poses.push_back(to_message(pose));
+      cloud.particles.push_back({poses.poses.back(), 1.0 / static_cast<double>(sample.size())});
+    }
     shown_ = std::move(sample);
     belief_pace_.done(now);
     publish(cloud_, std::move(cloud));
+    publish(poses_, std::move(poses));
   }
 
   void show(const docent_msgs::People& people) {
@@ -89,11 +102,13 @@ class VisualizeModule final : public Module {
 
   transport::Bus& bus_;
   VisualizeParams params_;
-  transport::Publisher<geometry_msgs::PoseArray> cloud_;
+  transport::Publisher<nav2_msgs::ParticleCloud> cloud_;
+  transport::Publisher<geometry_msgs::PoseArray> poses_;  ///< the same for viewers that do not know Nav2
   transport::Publisher<visualization_msgs::MarkerArray> people_;
   Pace belief_pace_{params_.belief_period};
   Pace people_pace_{params_.people_period};
   std::vector<Pose2> shown_;
+  visualization::Diagnostics diagnostics_;
 };
 
 class NoVisualization final : public Module {};

@@ -14,8 +14,11 @@ class Visualize : public testing::Test {
     auto made = make_visualize({*bus_, museum_, config_, "", 1, true});
     ASSERT_TRUE(made) << made.error().message;
     module_ = std::move(*made);
-    viewer_->subscribe<geometry_msgs::PoseArray>(topics::kParticleCloud,
-                                                 [this](const auto& m) { clouds_.push_back(m); });
+    viewer_->subscribe<geometry_msgs::PoseArray>(topics::kBeliefPoses, [this](const auto& m) { clouds_.push_back(m); });
+    viewer_->subscribe<nav2_msgs::ParticleCloud>(topics::kParticleCloud,
+                                                 [this](const auto& m) { particles_.push_back(m); });
+    viewer_->subscribe<diagnostic_msgs::DiagnosticArray>(topics::kDiagnostics,
+                                                         [this](const auto& m) { diagnostics_.push_back(m); });
     viewer_->subscribe<visualization_msgs::MarkerArray>(topics::kPeopleMarkers,
                                                         [this](const auto& m) { people_.push_back(m); });
     viewer_->subscribe<visualization_msgs::MarkerArray>(topics::kMuseumMarkers,
@@ -54,6 +57,8 @@ class Visualize : public testing::Test {
   robot::RobotConfig config_;
   std::unique_ptr<Module> module_;
   std::vector<geometry_msgs::PoseArray> clouds_;
+  std::vector<nav2_msgs::ParticleCloud> particles_;
+  std::vector<diagnostic_msgs::DiagnosticArray> diagnostics_;
   std::vector<visualization_msgs::MarkerArray> people_;
   std::vector<visualization_msgs::MarkerArray> museums_;
 };
@@ -68,6 +73,13 @@ TEST_F(Visualize, ShowsTheBeliefWhenItChangesAndNotMoreOftenThanIsAskedFor) {
   EXPECT_EQ(clouds_[0].header.stamp.sec, 5);
   ASSERT_EQ(clouds_[0].poses.size(), 40U);
   for (const auto& pose : clouds_[0].poses) EXPECT_NEAR(pose.position.x, 1.0, 0.1001);
+  ASSERT_EQ(particles_.size(), 1U);
+  EXPECT_EQ(particles_[0].header.frame_id, "map");
+  ASSERT_EQ(particles_[0].particles.size(), 40U);
+  for (const auto& particle : particles_[0].particles) {
+    EXPECT_NEAR(particle.pose.position.x, 1.0, 0.1001);
+    EXPECT_DOUBLE_EQ(particle.weight, 1.0 / 40.0);
+  }
   for (int i = 0; i < 30; ++i) say(belief_at(2.0F + 0.01F * static_cast<float>(i)), {}, 1);
   EXPECT_EQ(clouds_.size(), 7U) << "one each half second of three";
   say(belief_at(9.0F), {}, 6);
@@ -86,6 +98,21 @@ TEST_F(Visualize, ShowsPeopleWhileThereAreAny) {
   EXPECT_EQ(people_.size(), before);
 }
 
+TEST_F(Visualize, TellsTheDiagnosticsOnceASecond) {
+  start();
+  docent_msgs::Health health;
+  health.module = "localize";
+  health.state = "degraded";
+  health.reason = "no scan";
+  robot_->publisher(topics::kHealth).publish(health);
+  hub_.run_until(time_from_seconds(3.5));
+  ASSERT_EQ(diagnostics_.size(), 3U);
+  ASSERT_EQ(diagnostics_[0].status.size(), 1U);
+  EXPECT_EQ(diagnostics_[0].status[0].level, 1);
+  EXPECT_EQ(diagnostics_[0].status[0].message, "no scan");
+  EXPECT_EQ(diagnostics_[2].status[0].level, 3) << "it has fallen silent";
+}
+
 TEST_F(Visualize, ShowsTheMuseumToWhoComesLate) {
   museum_.area = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}};
   start();
@@ -101,6 +128,7 @@ TEST_F(Visualize, SwitchedOffItIsSilent) {
   EXPECT_TRUE(clouds_.empty());
   EXPECT_TRUE(people_.empty());
   EXPECT_TRUE(museums_.empty());
+  EXPECT_TRUE(diagnostics_.empty());
   EXPECT_TRUE(hub_.topics_published_by("visualize").empty());
 }
 

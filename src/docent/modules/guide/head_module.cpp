@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "docent/interaction/head/face_joints.h"
 #include "docent/interaction/head/head_control.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/guide/people_around.h"
@@ -18,16 +19,19 @@ struct HeadParams {
   interaction::MoodParams mood;        ///< from happy to angry, by how long people block the way
   interaction::GazeChoiceParams gaze;  ///< at whom and what it looks
   interaction::NeckParams neck;        ///< how the head turns there
+  interaction::FaceParams face;        ///< how far brows and mouth go
   template <class V>
   void visit(V& v) {
     v("mood", mood);
     v("gaze", gaze);
     v("neck", neck);
+    v("face", face);
   }
   [[nodiscard]] Result<void> validate() const {
     if (auto valid = mood.validate(); !valid) return fail("head." + valid.error().message);
     if (auto valid = gaze.validate(); !valid) return fail("head." + valid.error().message);
     if (auto valid = neck.validate(); !valid) return fail("head." + valid.error().message);
+    if (auto valid = face.validate(); !valid) return fail("head." + valid.error().message);
     return {};
   }
 };
@@ -46,7 +50,8 @@ class HeadModule final : public Module {
         museum_{context.museum},
         head_{{params.mood, params.gaze, params.neck}, Rng{context.seed}.stream("mood")},
         expression_{bus_.publisher(topics::kExpression)},
-        joints_{bus_.publisher(topics::kJointStates)},
+        face_{params.face},
+        joints_{bus_.publisher(topics::kHeadCommand)},
         pose_{reach_of(context.config.body())},
         around_{bus_} {
     bus_.subscribe<docent_msgs::Task>(topics::kTask, [this](const auto& task) { head_.task(to_task(task, museum_)); });
@@ -93,17 +98,20 @@ class HeadModule final : public Module {
     const std_msgs::Header header{to_message(now), "base_link"};
     expression_.publish({header, to_text(shown.mood), shown.valence, shown.is_speaking, to_text(shown.at),
                          shown.pan.position, shown.tilt.position});
-    joints_.publish({header,
-                     {"head_pan_joint", "head_tilt_joint"},
-                     {shown.pan.position, shown.tilt.position},
-                     {shown.pan.velocity, shown.tilt.velocity},
-                     {}});
+    const interaction::FaceJoints face = interaction::face_joints(shown, now, face_);
+    joints_.publish(
+        {header,
+         {"head_pan_joint", "head_tilt_joint", "left_brow_joint", "right_brow_joint", "mouth_joint", "jaw_joint"},
+         {shown.pan.position, shown.tilt.position, face.left_brow, face.right_brow, face.mouth, face.jaw},
+         {},
+         {}});
   }
 
   transport::Bus& bus_;
   const museum::Museum& museum_;
   interaction::HeadControl head_;
   transport::Publisher<docent_msgs::Expression> expression_;
+  interaction::FaceParams face_;
   transport::Publisher<sensor_msgs::JointState> joints_;
   PoseTracker pose_;
   PeopleAround around_;

@@ -14,6 +14,7 @@
 #include "docent/task_control/mission_service/mission_service.h"
 #include "docent/task_control/mission_service/museum_programme.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
+#include "docent/vocabulary/uuid.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -118,17 +119,26 @@ task_control::VisitorRequest request_of(const docent_msgs::Request& message) {
           message.language};
 }
 
+/// Staff wants the robot to go there; which way it looks then is not asked for.
+task_control::VisitorRequest request_of(const geometry_msgs::PoseStamped& goal, Time now, Rng& rng) {
+  char place[64];
+  std::snprintf(place, sizeof place, "%.2f,%.2f", goal.pose.position.x, goal.pose.position.y);
+  return {make_uuid_v7(now, rng), now, RequestSource::staff, topics::kGoalPose.name, RequestKind::point, place, -1, ""};
+}
+
 /// Section `mission`, with the choice of its planner.
 struct MissionModuleParams : task_control::MissionParams {
   std::string planner = "plans";  ///< plans: Minerva's controller; golog: the museum's tour.pl, or the shipped one
   task_control::GologPlannerParams golog;  ///< of the planner golog
   MinglingParams attraction;               ///< how it learns to attract people
+  bool goal_poses = false;                 ///< goal_pose, which rviz2 sends, is a wish of the staff to go there
   template <class V>
   void visit(V& v) {
     task_control::MissionParams::visit(v);
     v("planner", planner);
     v("golog", golog);
     v("attraction", attraction);
+    v("goal_poses", goal_poses);
   }
   [[nodiscard]] Result<void> validate() const {
     if (planner != "plans" && planner != "golog") return fail("mission.planner must be plans or golog");
@@ -155,6 +165,7 @@ class MissionModule final : public Module {
         event_{bus_.publisher(topics::kEvent)} {
     tell(service_.begin(bus_.now()));
     subscribe();
+    take_goal_poses(params.goal_poses, Rng{context.seed}.stream("goal_pose"));
   }
 
   [[nodiscard]] ModuleHealth health() const override {
@@ -203,6 +214,15 @@ class MissionModule final : public Module {
       tell_mode();
       tell(service_.tick(bus_.now()));
     });
+  }
+
+  void take_goal_poses(bool are_obeyed, const Rng& seed) {
+    bus_.subscribe<geometry_msgs::PoseStamped>(
+        topics::kGoalPose, [this, are_obeyed, rng = Rng{seed}](const auto& goal) mutable {
+          if (!are_obeyed) return bus_.refuse(topics::kGoalPose.name, {"it", "is not obeyed: mission.goal_poses"});
+          tell_mode();
+          tell(service_.request(request_of(goal, bus_.now(), rng), bus_.now()));
+        });
   }
 
   void tell_mode() { service_.limits(mode_.takes_requests(), parse<OperatingMode>(mode_.name(bus_.now()))); }

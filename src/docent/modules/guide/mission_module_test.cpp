@@ -109,6 +109,41 @@ TEST(Tour, RefusesInWords) {
   EXPECT_EQ(rehearsal.client.state_of("r5"), "fulfilled") << "the Web may see it";
 }
 
+TEST(Tour, AGoalPoseIsAWishOfTheStaffWhereItIsAllowed) {
+  Rehearsal rehearsal{8, "goal_pose"};
+  const auto rviz = rehearsal.hub.connect("rviz");
+  const auto goal = rviz->publisher(topics::kGoalPose);
+  const auto wishes = [&] {
+    std::vector<docent_msgs::RequestState> found;
+    for (const auto& [id, state] : rehearsal.client.states)
+      if (state.request.kind == "point") found.push_back(state);
+    return found;
+  };
+  geometry_msgs::PoseStamped there;
+  there.header.frame_id = "map";
+  there.pose.position = {2.0, 1.5, 0.0};
+  rehearsal.run_for(5);
+  goal.publish(there);
+  rehearsal.run_for(3);
+  EXPECT_TRUE(wishes().empty()) << "robot.yaml does not allow it";
+
+  rehearsal.kill("mission");
+  ASSERT_TRUE(rehearsal.config.set("mission.goal_poses=true"));
+  rehearsal.start("mission");
+  rehearsal.run_for(5);
+  there.header.frame_id = "odom";
+  goal.publish(there);
+  rehearsal.run_for(3);
+  EXPECT_TRUE(wishes().empty()) << "of another frame";
+  there.header.frame_id = "map";
+  goal.publish(there);
+  rehearsal.run_for(60);
+  ASSERT_EQ(wishes().size(), 1U);
+  EXPECT_EQ(wishes()[0].request.source, "staff");
+  EXPECT_EQ(wishes()[0].request.target, "2.00,1.50");
+  EXPECT_EQ(wishes()[0].state, "fulfilled");
+}
+
 TEST(Tour, AnUnreachableExhibitIsTriedAgainThenFails) {
   Rehearsal rehearsal{7, "unreachable"};
   rehearsal.plan.unreachable.insert({10, 0});

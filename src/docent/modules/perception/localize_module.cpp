@@ -101,7 +101,7 @@ Believer make_believer(const ModuleContext& context, const LocalizeParams& param
 
 std::vector<std::string> names_of_scans(const robot::RobotBody& body) {
   std::vector<std::string> names;
-  for (const robot::Scanner& scanner : body.scanners) names.push_back("scan_" + scanner.name);
+  for (const robot::Scanner& scanner : body.scanners) names.push_back(body.topic_of(scanner));
   return names;
 }
 

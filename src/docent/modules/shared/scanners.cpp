@@ -20,7 +20,7 @@ ScannerTraits traits_of(const robot::RobotBody& body, const robot::Scanner& scan
 
 ScannerReaders::ScannerReaders(const robot::RobotBody& body) {
   for (const robot::Scanner& scanner : body.scanners) {
-    topics_.push_back("scan_" + scanner.name);
+    topics_.push_back(body.topic_of(scanner));
     readers_.emplace_back(traits_of(body, scanner));
   }
 }

@@ -76,5 +76,42 @@ TEST_F(CameraDeskTest, ServesNothingThatIsNoPicture) {
   EXPECT_EQ(desk_.fault(), "");
 }
 
+sensor_msgs::Image raw_picture(double time, const std::string& encoding) {
+  sensor_msgs::Image image;
+  image.header = {to_message(Time{} + seconds(time)), "camera"};
+  image.width = image.height = 16;
+  image.encoding = encoding;
+  image.step = 48;
+  image.data.assign(16 * 48, 200);
+  return image;
+}
+
+TEST_F(CameraDeskTest, CompressesWhatComesWithoutBeingCompressed) {
+  const auto raw = world_->publisher(topics::kCameraImage);
+  raw.publish(raw_picture(1.0, "rgb8"));
+  hub_.run_until(hub_.now() + seconds(0.01));
+  EXPECT_EQ(taken("robot"), "1.000");
+  const auto shown = site_->get("/camera/robot.jpg");
+  EXPECT_EQ(shown.content_type, "image/jpeg");
+  raw.publish(raw_picture(1.05, "rgb8"));
+  hub_.run_until(hub_.now() + seconds(0.1));
+  EXPECT_EQ(taken("robot"), "1.000") << "not faster than eyes need";
+  hub_.run_until(hub_.now() + seconds(0.2));
+  raw.publish(raw_picture(1.3, "rgb8"));
+  hub_.run_until(hub_.now() + seconds(0.3));
+  EXPECT_EQ(taken("robot"), "1.300");
+  robot_sees(1.6);
+  raw.publish(raw_picture(1.7, "rgb8"));
+  hub_.run_until(hub_.now() + seconds(0.01));
+  EXPECT_EQ(taken("robot"), "1.600") << "the same camera, and compressed by its driver";
+}
+
+TEST_F(CameraDeskTest, SaysWhichPixelsItDoesNotRead) {
+  world_->publisher(topics::kSceneCameraImage).publish(raw_picture(1.0, "bayer_rggb8"));
+  hub_.run_until(hub_.now() + seconds(0.01));
+  EXPECT_EQ(site_->get("/camera/scene.jpg").status, 204);
+  EXPECT_EQ(desk_.fault(), "scene_camera/image/compressed: pixels of encoding 'bayer_rggb8' are not read");
+}
+
 }  // namespace
 }  // namespace docent::modules
