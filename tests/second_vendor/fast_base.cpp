@@ -57,7 +57,6 @@ int fail(const std::string& what) {
   return 1;
 }
 
-
 /// What a driver offers, and what it asks for.
 struct Base {
   explicit Base(FastNode& node, bool is_stamped)

@@ -7,16 +7,14 @@ namespace {
 
 using eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
 
-std::string text_of(const std::vector<eprosima::fastrtps::rtps::octet>& bytes) {
-  return {bytes.begin(), bytes.end()};
-}
+std::string text_of(const std::vector<eprosima::fastrtps::rtps::octet>& bytes) { return {bytes.begin(), bytes.end()}; }
 
 template <class Qos>
 void set_quality(Qos& qos, Quality quality) {
-  qos.reliability().kind = quality == Quality::sensor_data ? dds::BEST_EFFORT_RELIABILITY_QOS
-                                                           : dds::RELIABLE_RELIABILITY_QOS;
-  qos.durability().kind = quality == Quality::latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS
-                                                      : dds::VOLATILE_DURABILITY_QOS;
+  qos.reliability().kind =
+      quality == Quality::sensor_data ? dds::BEST_EFFORT_RELIABILITY_QOS : dds::RELIABLE_RELIABILITY_QOS;
+  qos.durability().kind =
+      quality == Quality::latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = quality == Quality::latched ? 1 : 10;
   qos.endpoint().history_memory_policy = PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
@@ -104,8 +102,8 @@ FastNode::FastNode(int domain, Range range) : ear_{std::make_unique<Ear>()} {
   const std::string enclave = "enclave=/;";
   qos.user_data().setValue({enclave.begin(), enclave.end()});
   qos.name("/");
-  participant_ = factory->create_participant(static_cast<std::uint32_t>(domain), qos, ear_.get(),
-                                             dds::StatusMask::none());
+  participant_ =
+      factory->create_participant(static_cast<std::uint32_t>(domain), qos, ear_.get(), dds::StatusMask::none());
   if (participant_ == nullptr) return;
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
   subscriber_ = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// Messages of ROS 2 as their .msg files have them, put into bytes by Fast CDR: nothing here comes from Docent, so that a
-// mistake in Docent's messages or its CDR is not made twice.
+// Messages of ROS 2 as their .msg files have them, put into bytes by Fast CDR: nothing here comes from Docent, so that
+// a mistake in Docent's messages or its CDR is not made twice.
 
 namespace second_vendor {
 
@@ -76,8 +76,7 @@ struct PoseWithCovariance : OnWire<PoseWithCovariance> {
 /// (`ros2 topic info --verbose`).
 struct Twist : OnWire<Twist> {
   static constexpr const char* kName = "geometry_msgs::msg::dds_::Twist_";
-  static constexpr const char* kHash =
-      "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a";
+  static constexpr const char* kHash = "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a";
   Vector3 linear;
   Vector3 angular;
   template <class Self, class F>
@@ -87,8 +86,7 @@ struct Twist : OnWire<Twist> {
 };
 struct TwistStamped : OnWire<TwistStamped> {
   static constexpr const char* kName = "geometry_msgs::msg::dds_::TwistStamped_";
-  static constexpr const char* kHash =
-      "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64";
+  static constexpr const char* kHash = "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64";
   Header header;
   Twist twist;
   template <class Self, class F>
@@ -98,8 +96,7 @@ struct TwistStamped : OnWire<TwistStamped> {
 };
 struct Odometry : OnWire<Odometry> {
   static constexpr const char* kName = "nav_msgs::msg::dds_::Odometry_";
-  static constexpr const char* kHash =
-      "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0";
+  static constexpr const char* kHash = "RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0";
   Header header;
   std::string child_frame_id;
   PoseWithCovariance pose;
@@ -112,8 +109,7 @@ struct Odometry : OnWire<Odometry> {
 };
 struct LaserScan : OnWire<LaserScan> {
   static constexpr const char* kName = "sensor_msgs::msg::dds_::LaserScan_";
-  static constexpr const char* kHash =
-      "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828";
+  static constexpr const char* kHash = "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828";
   Header header;
   float angle_min = 0, angle_max = 0, angle_increment = 0, time_increment = 0, scan_time = 0;
   float range_min = 0, range_max = 0;
@@ -127,8 +123,7 @@ struct LaserScan : OnWire<LaserScan> {
 };
 struct BatteryState : OnWire<BatteryState> {
   static constexpr const char* kName = "sensor_msgs::msg::dds_::BatteryState_";
-  static constexpr const char* kHash =
-      "RIHS01_4bee5dfce981c98faa6828b868307a0a73f992ed0789f374ee96c8f840e69741";
+  static constexpr const char* kHash = "RIHS01_4bee5dfce981c98faa6828b868307a0a73f992ed0789f374ee96c8f840e69741";
   Header header;
   float voltage = 0, temperature = 0, current = 0, charge = 0, capacity = 0, design_capacity = 0, percentage = 0;
   std::uint8_t status = 0, health = 0, technology = 0;
@@ -152,8 +147,7 @@ struct TransformStamped : OnWire<TransformStamped> {
 };
 struct TFMessage : OnWire<TFMessage> {
   static constexpr const char* kName = "tf2_msgs::msg::dds_::TFMessage_";
-  static constexpr const char* kHash =
-      "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087";
+  static constexpr const char* kHash = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087";
   std::vector<TransformStamped> transforms;
   template <class Self, class F>
   static void fields(Self& m, F&& f) {

@@ -165,8 +165,8 @@ class Tour {
     const std::uint32_t step = step_of(odometry.header.stamp);
     const double yaw = second_vendor::odometry_yaw(step);
     expect(odometry.child_frame_id == "base_link" && odometry.header.frame_id == "odom" &&
-           odometry.pose.pose.position.x == second_vendor::odometry_x(step) &&
-           odometry.pose.pose.position.y == -2.0 && odometry.pose.pose.orientation.z == std::sin(yaw / 2) &&
+           odometry.pose.pose.position.x == second_vendor::odometry_x(step) && odometry.pose.pose.position.y == -2.0 &&
+           odometry.pose.pose.orientation.z == std::sin(yaw / 2) &&
            odometry.pose.pose.orientation.w == std::cos(yaw / 2) && odometry.pose.covariance[35] == 0.25 &&
            odometry.twist.twist.linear.x == second_vendor::speed_of(step) &&
            odometry.twist.covariance[0] == 1.0 / (1.0 + step));

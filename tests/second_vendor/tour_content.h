@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-// What the messages of a tour say, by their number: both sides know it, so that each can tell a wrong value from a right
-// one. Plain numbers; each side puts them into its own messages.
+// What the messages of a tour say, by their number: both sides know it, so that each can tell a wrong value from a
+// right one. Plain numbers; each side puts them into its own messages.
 
 namespace second_vendor {
 

@@ -28,16 +28,18 @@
 #include "docent/museum/editing/museum_workshop.h"
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
+#include "docent/transport/discovery.h"
 
 namespace docent::apps::up_command {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -10;       // nice values: of those on which braking waits,
-constexpr int kPrompt = -5;        // and driving;
-constexpr int kStepBack = 5;       // of the others, where nobody may be put in front
-constexpr double kPatience = 5.0;  // [s] for the modules to end in order
+constexpr Duration kLookRound = std::chrono::seconds{1};  // a round of discovery: SPDPInterval
+constexpr int kUrgent = -10;                              // nice values: of those on which braking waits,
+constexpr int kPrompt = -5;                               // and driving;
+constexpr int kStepBack = 5;                              // of the others, where nobody may be put in front
+constexpr double kPatience = 5.0;                         // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
   return std::filesystem::path{options.deployment.state} / "recordings";
@@ -177,6 +179,32 @@ void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
   });
 }
 
+void tell_reach(const Deployment& deployment, StatusDisplay& display) {
+  const auto reach = transport::dds_reach(deployment.domain, deployment.interface);
+  display.log(LogLevel::info, "bus", in_words(reach));
+  for (const auto& line : deployment.ros_lines())
+    display.log(LogLevel::info, "bus", "for ROS 2 (" + line.implementation + "): " + line.line);
+}
+
+/// Before any module runs: two robots of one name would each obey the other's sensors and drive the other's base.
+void look_for_others(transport::DdsBus& bus, const Deployment& deployment, StatusDisplay& display) {
+  std::stop_source stop;
+  bus.after(kLookRound, [&stop] { stop.request_stop(); });
+  bus.run(stop.get_token());
+  const auto heard = transport::discovered(bus.participant());
+  const auto other = transport::other_robot(heard, bus.wire_name(transport::topic_info(topics::kHealth)),
+                                            bus.wire_name(transport::topic_info(topics::kCommandVelocity)));
+  const std::string name = deployment.name.empty() ? "without a name" : "named '" + deployment.name + "'";
+  const std::string domain = "domain " + std::to_string(deployment.domain);
+  if (other.is_docent)
+    throw CommandFailed{"another robot " + name + " is on " + domain +
+                        ": both would drive both bases. Give this one a --name or a --domain of its own"};
+  if (other.commanders > 0)
+    display.log(LogLevel::warning, "bus",
+                std::to_string(other.commanders) + " other program(s) publish cmd_vel on " + domain +
+                    ": the base obeys whoever spoke last; `docent ros check` names them");
+}
+
 }  // namespace
 
 Result<void> own_state(const Deployment& deployment) {
@@ -209,7 +237,10 @@ void run_robot(const RobotRun& options) {
   };
   const auto bus = value_or_fail(
       transport::DdsBus::create({options.deployment.domain, options.deployment.name,
-                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }}));
+                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }, false,
+                                 options.deployment.interface}));
+  tell_reach(options.deployment, display);
+  look_for_others(*bus, options.deployment, display);
   Supervisor supervisor{value_or_fail(children_of(options, options.deployment.museum)), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;

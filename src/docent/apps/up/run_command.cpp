@@ -36,6 +36,7 @@ std::string module_names() {
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, int domain, const std::string& module) {
   transport::DdsOptions options{domain, deployment.name, {}};
   options.warn = [module](const std::string& text) { log_to_stderr(LogLevel::warning, module, text); };
+  options.interface = deployment.interface;
   options.stamped_commands = value_or_fail(deployment.load_config(), kExitBadConfiguration).body().stamped_commands;
   return value_or_fail(transport::DdsBus::create(std::move(options)));
 }
