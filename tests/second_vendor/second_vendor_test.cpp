@@ -27,6 +27,7 @@ using transport::DdsBus;
 // Other tests run at the same time in other domains.
 constexpr int kTourDomain = 191;
 constexpr int kStampedDomain = 192;
+constexpr int kRobotDomain = 193;
 
 /// Another program and what it prints. Ended at the latest with this object.
 class Program {
@@ -37,6 +38,7 @@ class Program {
     pid_ = fork();
     if (pid_ == 0) {
       dup2(ends[1], STDOUT_FILENO);
+      dup2(ends[1], STDERR_FILENO);
       std::vector<char*> arguments;
       for (auto& word : words) arguments.push_back(word.data());
       arguments.push_back(nullptr);
@@ -236,6 +238,89 @@ void exchange(int domain, int steps, bool is_stamped) {
 TEST(SecondVendor, ATourOfTwentyMinutesBothWays) { exchange(kTourDomain, 24000, false); }
 
 TEST(SecondVendor, CommandsWithAStamp) { exchange(kStampedDomain, 2400, true); }
+
+/// Whether Docent tells ROS 2 its enclave and the hashes of its types.
+template <class Options>
+constexpr bool kTellsRos2 = requires(Options options) {
+  options.node;
+};
+
+/// `docent COMMAND…` for the robot of these tests: one scanner and nothing else.
+Program docent(std::vector<std::string> words, bool has_state) {
+  words.insert(words.begin(), DOCENT_PROGRAM);
+  const std::vector<std::string> robot{"--domain", std::to_string(kRobotDomain),
+                                       "--robot",  DOCENT_SOURCES "/robots/one-scanner.yaml",
+                                       "--set",    "body.sonars=0",
+                                       "--set",    "body.infrareds=0",
+                                       "--set",    "body.tactile=false"};
+  words.insert(words.end(), robot.begin(), robot.end());
+  if (has_state) {
+    const std::string state = ::testing::TempDir() + "second-vendor-" + words[1] + std::to_string(getpid());
+    words.insert(words.end(), {"--state", state, "--no-cache", "--museum", DOCENT_SOURCES "/museums/bonn"});
+  }
+  return Program{std::move(words)};
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// What `docent ros check` says. @param code  with which it ended
+std::string ros_check(int& code, const std::string& more = "--json") {
+  auto check = docent({"ros", "check", "--seconds", "2", more}, false);
+  code = check.wait();
+  return check.output();
+}
+
+TEST(SecondVendor, TheCheckTellsABaseThatIsThereFromNone) {
+  int code = 0;
+  EXPECT_TRUE(says(ros_check(code), "nobody publishes it"));
+  EXPECT_EQ(code, 1);
+  const auto base = fast_base("drive", kRobotDomain, 60);
+  const std::string heard = ros_check(code);
+  EXPECT_EQ(code, 0) << heard;
+  EXPECT_TRUE(says(heard, "\"vendor\": \"Fast DDS\""));
+  EXPECT_TRUE(says(heard, "\"user_data\": \"enclave=/;\"")) << "as ROS 2 has it";
+  EXPECT_TRUE(says(heard, "typehash=RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828;"))
+      << "a LaserScan's of ROS 2";
+  const std::string stamped = ros_check(code, "--set=body.stamped_commands=true");
+  EXPECT_EQ(code, 1) << "the base wants a Twist";
+  EXPECT_TRUE(says(stamped, "(body.stamped_commands: false)")) << stamped;
+}
+
+TEST(SecondVendor, TheRobotModuleDrivesABase) {
+  const auto base = fast_base("drive", kRobotDomain, 60);
+  const auto robot = docent({"run", "robot"}, true);
+  const auto bus = bus_in(kRobotDomain);
+  double x = 0.0;
+  bus->subscribe<nav_msgs::Odometry>(topics::kOdometry,
+                                     [&](const auto& odometry) { x = odometry.pose.pose.position.x; });
+  const auto drives = bus->publisher(topics::kDrive);
+  bus->every(50ms, [&] {
+    docent_msgs::Drive drive;
+    drive.header.stamp = to_message(bus->now());
+    drive.linear = 0.4;
+    drives.publish(drive);
+  });
+  EXPECT_TRUE(run_until(*bus, 30s, [&] { return x > 0.5; })) << x;
+
+  auto listener = fast_base("list", kRobotDomain, 2);
+  EXPECT_EQ(listener.wait(), 0);
+  const std::string& found = listener.output();
+  EXPECT_TRUE(says(found, "writer rt/cmd_vel geometry_msgs::msg::dds_::Twist_ reliable volatile")) << found;
+  EXPECT_TRUE(says(found, "writer rt/tf_static tf2_msgs::msg::dds_::TFMessage_ reliable transient-local")) << found;
+  EXPECT_TRUE(says(found, "reader rt/odom nav_msgs::msg::dds_::Odometry_ best-effort volatile")) << found;
+  if constexpr (kTellsRos2<transport::DdsOptions>) {
+    EXPECT_TRUE(says(found, "'enclave=/;'")) << found;
+    EXPECT_TRUE(says(found,
+                     "writer rt/cmd_vel geometry_msgs::msg::dds_::Twist_ reliable volatile "
+                     "'typehash=RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a;'"))
+        << found;
+    EXPECT_TRUE(says(found, "writer ros_discovery_info ")) << found;
+  }
+
+  auto second = docent({"up", "--port", "18763"}, true);
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_TRUE(says(second.output(), "another robot without a name is on domain 193")) << second.output();
+}
 
 }  // namespace
 }  // namespace docent::second_vendor_test

@@ -1,6 +1,9 @@
 #include "docent/transport/dds_reach.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -80,6 +83,24 @@ TEST(DdsReach, AFullDomainSaysItsLimitAndTheCure) {
   EXPECT_NE(other.find("3 of 121 places"), std::string::npos);
   const std::string own = cannot_join({41, kLoopback, "file:///x.xml"}, "Error", 10);
   EXPECT_NE(own.find("MaxAutoParticipantIndex"), std::string::npos);
+}
+
+TEST(DdsReach, WhoFindsNoPlaceInADomainIsToldSo) {
+  constexpr int kFullDomain = 50;  // other tests run at the same time in other domains
+  std::vector<int> sockets;
+  for (int i = 0; i < kMostParticipants; ++i) {
+    sockets.push_back(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * kFullDomain + 10 + 2 * i));
+    ASSERT_EQ(bind(sockets.back(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0) << i;
+  }
+  const auto created = DdsBus::create({kFullDomain, "", {}});
+  for (const int one : sockets) close(one);
+  ASSERT_FALSE(created);
+  EXPECT_EQ(created.error().message.find("DDS cannot join domain 50: Error. All 121 places"), 0U)
+      << created.error().message;
+  EXPECT_TRUE(DdsBus::create({kFullDomain, "", {}})) << "a place is free again";
 }
 
 }  // namespace
