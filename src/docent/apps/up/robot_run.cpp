@@ -205,6 +205,15 @@ void look_for_others(transport::DdsBus& bus, const Deployment& deployment, Statu
                     ": the base obeys whoever spoke last; `docent ros check` names them");
 }
 
+std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
+  const auto warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
+  auto bus =
+      value_or_fail(transport::DdsBus::create({deployment.domain, deployment.name, warn, false, deployment.interface}));
+  tell_reach(deployment, display);
+  look_for_others(*bus, deployment, display);
+  return bus;
+}
+
 }  // namespace
 
 Result<void> own_state(const Deployment& deployment) {
@@ -235,12 +244,7 @@ void run_robot(const RobotRun& options) {
     if (from == Supervisor::From::child) return display.log_output(name, line);
     display.log(LogLevel::error, name, line);
   };
-  const auto bus = value_or_fail(
-      transport::DdsBus::create({options.deployment.domain, options.deployment.name,
-                                 [&](const std::string& text) { display.log(LogLevel::warning, "bus", text); }, false,
-                                 options.deployment.interface}));
-  tell_reach(options.deployment, display);
-  look_for_others(*bus, options.deployment, display);
+  const auto bus = join(options.deployment, display);
   Supervisor supervisor{value_or_fail(children_of(options, options.deployment.museum)), log};
   bus->publisher(topics::kLimits).publish(limits);
   bool is_announced = false;
