@@ -132,17 +132,13 @@ Discovered discovered(std::int32_t participant) {
   return all;
 }
 
-OtherRobot other_robot(const Discovered& heard, const std::string& health, const std::string& command) {
+bool has_robot(const Discovered& heard, const std::string& health, const std::string& command) {
   std::set<std::string> healthy;
-  std::set<std::string> commanding;
-  for (const Endpoint& one : heard.endpoints) {
-    if (!one.writes) continue;
-    if (one.topic == health) healthy.insert(one.participant);
-    if (one.topic == command) commanding.insert(one.participant);
-  }
-  const bool is_docent =
-      std::any_of(commanding.begin(), commanding.end(), [&](const std::string& one) { return healthy.contains(one); });
-  return {is_docent, static_cast<int>(commanding.size())};
+  for (const Endpoint& one : heard.endpoints)
+    if (one.writes && one.topic == health) healthy.insert(one.participant);
+  return std::any_of(heard.endpoints.begin(), heard.endpoints.end(), [&](const Endpoint& one) {
+    return one.writes && one.topic == command && healthy.contains(one.participant);
+  });
 }
 
 std::string ros_topic(std::string_view wire) { return std::string{wire.starts_with("rt/") ? wire.substr(2) : wire}; }

@@ -39,13 +39,9 @@ struct Discovered {
 /// @param participant  DdsBus::participant()
 [[nodiscard]] Discovered discovered(std::int32_t participant);
 
-/// Who else would drive the base.
-struct OtherRobot {
-  bool is_docent = false;  ///< a program that tells its health commands a base: another robot of the same name
-  int commanders = 0;      ///< programs that publish commands
-};
+/// Whether a program that tells its health commands a base: another robot of the same name.
 /// @param health  docent/health and @param command  cmd_vel, both on the wire
-[[nodiscard]] OtherRobot other_robot(const Discovered& heard, const std::string& health, const std::string& command);
+[[nodiscard]] bool has_robot(const Discovered& heard, const std::string& health, const std::string& command);
 
 /// As ROS 2 writes them: "/scan_front"; "sensor_msgs/msg/LaserScan". What has no such form stays as it is.
 [[nodiscard]] std::string ros_topic(std::string_view wire);

@@ -36,6 +36,7 @@ namespace {
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
 constexpr Duration kLookRound = std::chrono::seconds{1};  // a round of discovery: SPDPInterval
+constexpr int kMostRounds = 4;                            // until one that was told to end has ended
 constexpr int kUrgent = -10;                              // nice values: of those on which braking waits,
 constexpr int kPrompt = -5;                               // and driving;
 constexpr int kStepBack = 5;                              // of the others, where nobody may be put in front
@@ -187,22 +188,31 @@ void tell_reach(const Deployment& deployment, StatusDisplay& display) {
 }
 
 /// Before any module runs: two robots of one name would each obey the other's sensors and drive the other's base.
+/// Before any module runs: two robots of one name would each obey the other's sensors and drive the other's base. One
+/// that is just ending gets some time for it; one that was killed does not count, for its writers no longer live.
 void look_for_others(transport::DdsBus& bus, const Deployment& deployment, StatusDisplay& display) {
-  std::stop_source stop;
-  bus.after(kLookRound, [&stop] { stop.request_stop(); });
-  bus.run(stop.get_token());
-  const auto heard = transport::discovered(bus.participant());
-  const auto other = transport::other_robot(heard, bus.wire_name(transport::topic_info(topics::kHealth)),
-                                            bus.wire_name(transport::topic_info(topics::kCommandVelocity)));
-  const std::string name = deployment.name.empty() ? "without a name" : "named '" + deployment.name + "'";
+  const auto command = transport::topic_info(topics::kCommandVelocity);
+  const std::string health = bus.wire_name(transport::topic_info(topics::kHealth));
+  int commanders = bus.other_writers(command);  // from now on it is watched whether they live
+  bool is_robot = true;
+  for (int round = 0; round < kMostRounds && is_robot; ++round) {
+    std::stop_source stop;
+    bus.after(kLookRound, [&stop] { stop.request_stop(); });
+    bus.run(stop.get_token());
+    commanders = bus.other_writers(command);
+    is_robot = commanders > 0 && has_robot(transport::discovered(bus.participant()), health, bus.wire_name(command));
+  }
   const std::string domain = "domain " + std::to_string(deployment.domain);
-  if (other.is_docent)
-    throw CommandFailed{"another robot " + name + " is on " + domain +
+  if (is_robot)
+    throw CommandFailed{"another robot " +
+                        (deployment.name.empty() ? std::string{"without a name"} : "named '" + deployment.name + "'") +
+                        " is on " + domain +
                         ": both would drive both bases. Give this one a --name or a --domain of its own"};
-  if (other.commanders > 0)
+  if (commanders > 0)
     display.log(LogLevel::warning, "bus",
-                std::to_string(other.commanders) + " other program(s) publish cmd_vel on " + domain +
-                    ": the base obeys whoever spoke last; `docent ros check` names them");
+                (commanders == 1 ? std::string{"another program publishes"}
+                                 : std::to_string(commanders) + " other programs publish") +
+                    " cmd_vel on " + domain + ": the base obeys whoever spoke last; `docent ros check` names them");
 }
 
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
