@@ -126,7 +126,7 @@ TEST_F(ABase, AReportHasAllOfIt) {
   for (const char* part :
        {"domain 3", "eth0 10.0.0.7: not heard (--interface eth0)", "export ROS_DOMAIN_ID=3", "1 Fast DDS",
         "/scan (sensor_msgs/msg/LaserScan), from 1 Fast DDS: reliable, volatile", "MISSING /scan_front: avoid",
-        "without it the robot stands", "Not all that is needed arrives."})
+        "without it: the robot stands", "Not all that is needed arrives."})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   const auto json = nlohmann::json::parse(json_of(check_, kHealth));
   EXPECT_FALSE(json["fine"]);

@@ -106,7 +106,7 @@ std::string text_of(const Check& check, const std::string& health) {
     char rate[64] = "";
     if (finding.arrives()) std::snprintf(rate, sizeof rate, ", %.1f Hz", finding.rate);
     text += std::string{"  "} + word_of(finding) + " " + finding.topic + rate + ": " + joined(finding.need.modules);
-    if (!finding.arrives()) text += "; without it " + finding.need.without;
+    if (!finding.arrives()) text += "; without it: " + finding.need.without;
     text += "\n";
     if (!finding.arrives() && !finding.need.is_needed && finding.faults.size() == 1) continue;  // it is just not there
     for (const auto& fault : finding.faults) text += "    " + fault + "\n";

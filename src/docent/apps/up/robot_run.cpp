@@ -219,8 +219,8 @@ std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisp
   const auto warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
   auto bus =
       value_or_fail(transport::DdsBus::create({deployment.domain, deployment.name, warn, false, deployment.interface}));
-  tell_reach(deployment, display);
   look_for_others(*bus, deployment, display);
+  tell_reach(deployment, display);
   return bus;
 }
 
