@@ -217,8 +217,9 @@ void look_for_others(transport::DdsBus& bus, const Deployment& deployment, Statu
 
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
   const auto warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
-  auto bus =
-      value_or_fail(transport::DdsBus::create({deployment.domain, deployment.name, warn, false, deployment.interface}));
+  transport::DdsOptions options{deployment.domain, deployment.name, warn};
+  options.interface = deployment.interface;
+  auto bus = value_or_fail(transport::DdsBus::create(std::move(options)));
   look_for_others(*bus, deployment, display);
   tell_reach(deployment, display);
   return bus;

@@ -116,8 +116,9 @@ Result<void> run_simulator(const Deployment& deployment, const SimulatorOptions&
   block_end_signals();
   const auto config = deployment.load_config();
   if (!config) return tl::unexpected<Error>(config.error());
-  auto robot_bus = transport::DdsBus::create(
-      {deployment.domain, deployment.name, warn, config->body().stamped_commands, deployment.interface});
+  transport::DdsOptions robot_options{deployment.domain, deployment.name, warn, config->body().stamped_commands};
+  robot_options.interface = deployment.interface;
+  auto robot_bus = transport::DdsBus::create(std::move(robot_options));
   if (!robot_bus) return tl::unexpected<Error>(robot_bus.error());
   auto truth_bus = transport::DdsBus::create({transport::truth_domain(deployment.domain), deployment.name, warn});
   if (!truth_bus) return tl::unexpected<Error>(truth_bus.error());
