@@ -94,21 +94,24 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
     return fail("DDS domain " + std::to_string(options.domain) + " is not in 0 … " + std::to_string(kMaxDdsDomain));
   }
   const auto domain_id = static_cast<dds_domainid_t>(options.domain);
+  const auto refused = [&options](dds_return_t why) {
+    std::ifstream ports{"/proc/net/udp"};
+    const std::string table{std::istreambuf_iterator<char>{ports}, {}};
+    return fail(cannot_join(dds_reach(options.domain, options.interface), dds_strretcode(-why),
+                            participants_here(options.domain, table)));
+  };
   dds_entity_t own_domain = 0;
   if (std::getenv("CYCLONEDDS_URI") == nullptr) {
     if (auto there = check_interface(options.interface, network_interfaces()); !there)
       return tl::unexpected<Error>(there.error());
     own_domain = dds_create_domain(domain_id, dds_configuration(options.interface).c_str());
     if (own_domain == DDS_RETCODE_PRECONDITION_NOT_MET) own_domain = 0;  // another bus of this process made it
-    if (own_domain < 0) return fail(std::string{"DDS cannot start: "} + dds_strretcode(-own_domain));
+    if (own_domain < 0) return refused(own_domain);
   }
   const dds_entity_t participant = dds_create_participant(domain_id, nullptr, nullptr);
   if (participant < 0) {
     if (own_domain > 0) dds_delete(own_domain);
-    std::ifstream ports{"/proc/net/udp"};
-    const std::string table{std::istreambuf_iterator<char>{ports}, {}};
-    return fail(cannot_join(dds_reach(options.domain, options.interface), dds_strretcode(-participant),
-                            participants_here(options.domain, table)));
+    return refused(participant);
   }
   if (own_domain == 0) own_domain = dds_get_parent(participant);
   return std::unique_ptr<DdsBus>{new DdsBus{std::move(options), participant, own_domain}};
