@@ -40,7 +40,9 @@ constexpr int kMostRounds = 4;                            // until one that was 
 constexpr int kUrgent = -10;                              // nice values: of those on which braking waits,
 constexpr int kPrompt = -5;                               // and driving;
 constexpr int kStepBack = 5;                              // of the others, where nobody may be put in front
-constexpr double kPatience = 5.0;                         // [s] for the modules to end in order
+constexpr double kInterfacePatience = 60.0;  // [s] then systemd tries again, without counting it as dying at once
+constexpr double kInterfaceStep = 0.5;       // [s]
+constexpr double kPatience = 5.0;            // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
   return std::filesystem::path{options.deployment.state} / "recordings";
@@ -215,7 +217,21 @@ void look_for_others(transport::DdsBus& bus, const Deployment& deployment, Statu
                     " cmd_vel on " + domain + ": the base obeys whoever spoke last; `docent ros check` names them");
 }
 
+/// A computer may start before its network does: the interface gets time to come up.
+void await_interface(const Deployment& deployment, StatusDisplay& display) {
+  if (!transport::dds_reach(deployment.domain, deployment.interface).uri.empty()) return;
+  const auto look = [&] { return transport::check_interface(deployment.interface, transport::network_interfaces()); };
+  auto there = look();
+  if (there) return;
+  display.log(LogLevel::warning, "bus", there.error().message + ": waiting for it");
+  for (double waited = 0.0; !there && waited < kInterfacePatience; waited += kInterfaceStep) {
+    if (wait_for_end_signal(kInterfaceStep) != 0) throw CommandFailed{"", 0};
+    there = look();
+  }
+}
+
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
+  await_interface(deployment, display);
   const auto warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
   transport::DdsOptions options{deployment.domain, deployment.name, warn};
   options.interface = deployment.interface;
