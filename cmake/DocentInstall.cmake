@@ -16,7 +16,7 @@ file(MAKE_DIRECTORY ${generated})
 
 install(TARGETS docent RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY web/dist DESTINATION ${share}/web COMPONENT program)
-install(DIRECTORY share/lichtblick share/nginx DESTINATION ${share} COMPONENT program)
+install(DIRECTORY share/dds share/lichtblick share/nginx DESTINATION ${share} COMPONENT program)
 install(DIRECTORY museums robots DESTINATION ${share} COMPONENT program)
 install(DIRECTORY prolog DESTINATION ${share} COMPONENT program PATTERN tests EXCLUDE)
 file(GLOB documents docs/*.md docs/robot.yaml)

@@ -34,6 +34,8 @@ READ_BY = {
     "robots/": ["=robot", "=apps/simulate"],
     "docs/robot.yaml": ["=apps/config"],
     "share/": ["tests/lichtblick"],
+    "share/dds/": ["=transport", "42-second-vendor"],
+    "tests/second_vendor/": ["42-second-vendor"],
     "prolog/": ["=task_control/golog", "=task_control/golog_planner", "=apps/golog", "12-prolog"],
     "tests/corpus/": ["13-fuzz-replay"],
     "scripts/testing/seeds.sh": ["13-fuzz-replay"],

@@ -43,6 +43,9 @@ if [ -f "$python" ]; then
   expect "the Python package runs it" inside bash -c "cd /usr/share/docent && PYTHONPATH=/tmp/python/usr/lib/python3/dist-packages \
     PYTHONDONTWRITEBYTECODE=1 XDG_CACHE_HOME=/tmp/cache exec python3 -m pytest -q -p no:cacheprovider /tmp/test_simulation.py"
 fi
+expect "docent ros check names the installed file for ROS 2's side" \
+  grep -q "CYCLONEDDS_URI=file:///usr/share/docent/dds/loopback.xml" <(inside docent ros check --seconds 0.5 --domain 199)
+expect "and both files are there" bash -c "[ -s '$root/usr/share/docent/dds/loopback.xml' ] && [ -s '$root/usr/share/docent/dds/fastdds.xml' ]"
 expect "docent_msgs for ROS 2 holds what the IDL holds" tests/package/check_messages.py "$root/usr/share/docent"
 unit=$root/usr/lib/systemd/system/docent.service
 if command -v systemd-analyze >/dev/null; then

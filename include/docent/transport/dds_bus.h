@@ -29,6 +29,9 @@ inline constexpr int kMaxDdsDomain = 230;
 /// Where the simulator publishes what is true: a domain that no module of the robot is in (architecture 10.1).
 [[nodiscard]] constexpr int truth_domain(int robot_domain) { return (robot_domain + 100) % (kMaxDdsDomain + 1); }
 
+/// The interface of this computer alone: who is on it is let in by the computer.
+inline constexpr const char* kLoopback = "lo";
+
 /// Which bus to join, and how.
 struct DdsOptions {
   int domain = 0;           ///< 0 … kMaxDdsDomain
@@ -40,14 +43,17 @@ struct DdsOptions {
   /// Topics that are called otherwise on the wire: {"scan_front", "lidar/scan"}. One that begins with a slash has no
   /// prefix.
   std::map<std::string, std::string, std::less<>> renamed{};
+  /// A network interface that is heard beside loopback; kLoopback: none. CYCLONEDDS_URI, where it is set, rules
+  /// instead.
+  std::string interface = kLoopback;
 };
 
 /// The DDS body of the bus: Cyclone DDS, seen by ROS 2 as an ordinary robot (architecture 4). Loopback only, unless
-/// CYCLONEDDS_URI is set. All handlers and timers run in `run`, on the caller's thread; before it, nothing is
-/// delivered.
+/// DdsOptions::interface or CYCLONEDDS_URI say otherwise. All handlers and timers run in `run`, on the caller's thread;
+/// before it, nothing is delivered.
 class DdsBus final : public Bus {
  public:
-  /// Error: DDS refuses the domain.
+  /// Error: DDS refuses the domain, or there is no such interface; says the cure.
   [[nodiscard]] static Result<std::unique_ptr<DdsBus>> create(DdsOptions options);
   ~DdsBus() override;
 
@@ -70,6 +76,11 @@ class DdsBus final : public Bus {
   /// One that was killed is told from one that lives as `alive_writers` does, if it is Docent's; others stay until
   /// their participant's lease is over (10 s of a ROS 2 program). O(writers of the domain)
   [[nodiscard]] int other_writers(const TopicInfo& topic) override;
+  /// Its entity, for what asks Cyclone DDS itself.
+  [[nodiscard]] std::int32_t participant() const { return participant_; }
+  /// What a topic is called on the wire, and the type of its messages there.
+  [[nodiscard]] std::string wire_name(const TopicInfo& topic) const;
+  [[nodiscard]] std::string wire_type(const TopicInfo& topic) const;  ///< "sensor_msgs::msg::dds_::LaserScan_"
 
   /// What has come in, and what has not.
   struct Counters {
@@ -134,7 +145,6 @@ class DdsBus final : public Bus {
 
   DdsBus(DdsOptions options, std::int32_t participant, std::int32_t own_domain);
   DdsTopic find_or_create(const TopicInfo& info);
-  [[nodiscard]] std::string wire_name(const TopicInfo& info) const;
   /// How the topic's messages look on the wire.
   [[nodiscard]] const TypeSupport* wire_support(const TopicInfo& topic) const;
   [[nodiscard]] int foreign_endpoints(const std::string& wire_name);

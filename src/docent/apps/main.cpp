@@ -10,6 +10,7 @@
 #include "docent/apps/museum/office_command.h"
 #include "docent/apps/museum/survey_command.h"
 #include "docent/apps/replay/replay_command.h"
+#include "docent/apps/ros/ros_command.h"
 #include "docent/apps/shared/laboratory_commands.h"
 #include "docent/apps/shared/program.h"
 #include "docent/apps/shared/robot_maker.h"
@@ -41,7 +42,8 @@ int main(int argc, char** argv) {
                    {localize_command::add_localize_command, localize_command::add_map_command,
                     localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole)}},
                   {"Tune", {config_command::add_config_command}},
-                  {"Put it into a robot of your own", {with_robot(up_command::add_run_command, whole)}}},
+                  {"Put it into a robot of your own",
+                   {ros::add_ros_command, with_robot(up_command::add_run_command, whole)}}},
        .other = "docent-lab",
        .others = {kLaboratoryCommands.begin(), kLaboratoryCommands.end()}},
       argc, argv);

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "docent/base/check.h"
 #include "docent/messages/schema.h"
 #include "docent/messages/topics.h"
 #include "docent/transport/cdr_sertype.h"
+#include "docent/transport/dds_reach.h"
 #include "docent/transport/ros_graph.h"
 #include "docent/transport/stamped_twist.h"
 #include "docent/transport/type_hash.h"
@@ -17,18 +20,6 @@
 
 namespace docent::transport {
 namespace {
-
-// Loopback only. Thirteen modules, the simulator and tools need more than the nine participants that the default finds
-// room for; a map must fit into the writer's history while a reader is stopped. A process that was stopped for less
-// than a minute is still known when it goes on, and new ones are found within a second. Liveliness tells that a process
-// died, not the lease.
-constexpr const char* kConfig = R"(<CycloneDDS><Domain Id="any">
-<General><Interfaces><NetworkInterface name="lo"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
-<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>
-<Peers><Peer Address="127.0.0.1"/></Peers>
-<SPDPInterval>1s</SPDPInterval><LeaseDuration>60s</LeaseDuration></Discovery>
-<Internal><Watermarks><WhcHigh>32 MB</WhcHigh></Watermarks></Internal>
-</Domain></CycloneDDS>)";
 
 constexpr std::size_t kStepsKept = 512;
 constexpr Duration kReaderWatch = std::chrono::milliseconds{500};
@@ -41,18 +32,26 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
     return fail("DDS domain " + std::to_string(options.domain) + " is not in 0 … " + std::to_string(kMaxDdsDomain));
   }
   const auto domain_id = static_cast<dds_domainid_t>(options.domain);
+  const auto refused = [&options](dds_return_t why) {
+    std::ifstream ports{"/proc/net/udp"};
+    const std::string table{std::istreambuf_iterator<char>{ports}, {}};
+    return fail(cannot_join(dds_reach(options.domain, options.interface), dds_strretcode(-why),
+                            participants_here(options.domain, table)));
+  };
   dds_entity_t own_domain = 0;
   if (std::getenv("CYCLONEDDS_URI") == nullptr) {
-    own_domain = dds_create_domain(domain_id, kConfig);
+    if (auto there = check_interface(options.interface, network_interfaces()); !there)
+      return tl::unexpected<Error>(there.error());
+    own_domain = dds_create_domain(domain_id, dds_configuration(options.interface).c_str());
     if (own_domain == DDS_RETCODE_PRECONDITION_NOT_MET) own_domain = 0;  // another bus of this process made it
-    if (own_domain < 0) return fail(std::string{"DDS cannot start: "} + dds_strretcode(-own_domain));
+    if (own_domain < 0) return refused(own_domain);
   }
   const DdsQos qos{dds_create_qos()};
   dds_qset_userdata(qos.get(), kParticipantUserData.data(), kParticipantUserData.size());
   const dds_entity_t participant = dds_create_participant(domain_id, qos.get(), nullptr);
   if (participant < 0) {
     if (own_domain > 0) dds_delete(own_domain);
-    return fail("DDS cannot join domain " + std::to_string(options.domain) + ": " + dds_strretcode(-participant));
+    return refused(participant);
   }
   if (own_domain == 0) own_domain = dds_get_parent(participant);
   return std::unique_ptr<DdsBus>{new DdsBus{std::move(options), participant, own_domain}};
@@ -158,6 +157,8 @@ const TypeSupport* DdsBus::wire_support(const TopicInfo& info) const {
   const bool is_command = std::string_view{info.name} == topics::kCommandVelocity.name;
   return options_.stamped_commands && is_command ? &stamped_twist_support() : info.type;
 }
+
+std::string DdsBus::wire_type(const TopicInfo& info) const { return dds_type_name(wire_support(info)->name); }
 
 DdsBus::DdsTopic DdsBus::find_or_create(const TopicInfo& info) {
   const TypeSupport* support = wire_support(info);

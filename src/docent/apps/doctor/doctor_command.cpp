@@ -79,10 +79,8 @@ void examine(const Options& options) {
   std::vector<Finding> all;
   const auto config = look_at_files(options, all);
   if (config) {
-    transport::DdsOptions dds;
-    dds.domain = options.deployment.domain;
-    dds.name_prefix = options.deployment.name;
-    dds.stamped_commands = config->body().stamped_commands;
+    const Deployment& deployment = options.deployment;
+    transport::DdsOptions dds = deployment.bus_options(deployment.domain, "doctor", config->body());
     std::vector<std::string> warnings;
     dds.warn = [&warnings](const std::string& text) { warnings.push_back(text); };
     auto bus = value_or_fail(transport::DdsBus::create(std::move(dds)));

@@ -34,19 +34,31 @@ void Deployment::add_options(CLI::App& command, Museum named) {
   }
   command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")->capture_default_str();
   add_cache_options(command, cache);
-  command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
-  command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
-  command.add_option("--name", name, "Prefix of the topics, where several robots share a domain")
-      ->check(topic_prefix());
-  command.add_option("--domain", domain, "DDS domain")
-      ->check(CLI::Range(0, transport::kMaxDdsDomain))
-      ->capture_default_str();
+  add_robot_options(command);
+  add_bus_options(command);
   add_seed(command, "--seed", seed, "Seed of everything random");
   command.add_option(
       "--explore", explore,
       "X,Y,DEG: where the robot begins to map the museum by itself, in the frame of its hazards and area; "
       "its map, exhibits and tours are not used");
   command.add_flag("--setup", is_setup)->group("");  // how docent setup tells its modules
+}
+
+void Deployment::add_robot_options(CLI::App& command) {
+  command.add_option("--robot", robot, "robot.yaml of the robot; without it all defaults");
+  command.add_option("--set", settings, "section.key=value, over robot.yaml; may be repeated")->allow_extra_args(false);
+}
+
+void Deployment::add_bus_options(CLI::App& command) {
+  command.add_option("--name", name, "Prefix of the topics, where several robots share a domain")
+      ->check(topic_prefix());
+  command.add_option("--domain", domain, "DDS domain")
+      ->check(CLI::Range(0, transport::kMaxDdsDomain))
+      ->capture_default_str();
+  command
+      .add_option("--interface", interface,
+                  "Network interface that DDS hears beside loopback, such as eth0; lo: this computer only")
+      ->capture_default_str();
 }
 
 std::vector<std::string> Deployment::arguments() const {
@@ -61,6 +73,7 @@ std::vector<std::string> Deployment::arguments() const {
   if (!name.empty()) all.insert(all.end(), {"--name", name});
   if (is_setup) all.emplace_back("--setup");
   if (!explore.empty()) all.insert(all.end(), {"--explore", explore});
+  if (interface != transport::kLoopback) all.insert(all.end(), {"--interface", interface});
   all.insert(all.end(), {"--domain", std::to_string(domain), "--seed", std::to_string(seed)});
   return all;
 }
@@ -102,6 +115,13 @@ Result<robot::RobotConfig> Deployment::load_config(const std::vector<std::string
   return config;
 }
 
+std::vector<transport::RosLine> Deployment::ros_lines() const {
+  std::error_code error;
+  const auto installed = shipped_path("dds");
+  const auto files = std::filesystem::exists(installed, error) ? installed : shipped_path("share/dds");
+  return transport::ros_lines(transport::dds_reach(domain, interface), files.string());
+}
+
 Result<void> Deployment::prepare_state() const {
   std::error_code error;
   std::filesystem::create_directories(state, error);
@@ -129,6 +149,7 @@ std::string default_state() {
 transport::DdsOptions Deployment::bus_options(int dds_domain, const std::string& process,
                                               const robot::RobotBody& body) const {
   transport::DdsOptions options{dds_domain, name, {}};
+  options.interface = interface;
   options.stamped_commands = body.stamped_commands;
   options.node = "docent_" + process;
   for (const robot::Scanner& scanner : body.scanners)

@@ -10,6 +10,7 @@
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
 #include "docent/transport/dds_bus.h"
+#include "docent/transport/dds_reach.h"
 
 namespace CLI {
 class App;
@@ -26,6 +27,7 @@ struct Deployment {
   std::vector<std::string> settings;  ///< section.key=value, over robot.yaml
   std::string name;                   ///< prefix of the topics
   int domain = 0;
+  std::string interface = "lo";  ///< a network interface that DDS hears beside loopback; "lo": none
   std::uint64_t seed = 1;
   bool is_setup = false;  ///< the museum is being set up: setup.yaml of its folder says how far it is
   std::string explore;    ///< X,Y,DEG: it begins there and maps the museum by itself; empty: it has its map
@@ -33,6 +35,9 @@ struct Deployment {
   /// Whether the command names the museum in another way than by --museum.
   enum class Museum { is_option, is_given };
   void add_options(CLI::App& command, Museum named = Museum::is_option);
+  /// Those of add_options that say what the robot is and where it is on the bus.
+  void add_robot_options(CLI::App& command);
+  void add_bus_options(CLI::App& command);
   /// As arguments of another process.
   [[nodiscard]] std::vector<std::string> arguments() const;
   /// Without its map where the robot explores.
@@ -44,6 +49,8 @@ struct Deployment {
   /// How a process of this robot joins a domain of DDS: as the node docent_PROCESS, with the topics of this body.
   [[nodiscard]] transport::DdsOptions bus_options(int dds_domain, const std::string& process,
                                                   const robot::RobotBody& body) const;
+  /// What the processes of ROS 2 must be told to hear this robot.
+  [[nodiscard]] std::vector<transport::RosLine> ros_lines() const;
   /// Makes the folder of the state; all that this process and its children write from then on is for its owner alone.
   [[nodiscard]] Result<void> prepare_state() const;
 };

@@ -29,16 +29,21 @@
 #include "docent/museum/editing/museum_workshop.h"
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
+#include "docent/transport/discovery.h"
 
 namespace docent::apps::up_command {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds{50};
 constexpr Duration kShow = std::chrono::milliseconds{500};
-constexpr int kUrgent = -10;       // nice values: of those on which braking waits,
-constexpr int kPrompt = -5;        // and driving;
-constexpr int kStepBack = 5;       // of the others, where nobody may be put in front
-constexpr double kPatience = 5.0;  // [s] for the modules to end in order
+constexpr Duration kLookRound = std::chrono::seconds{1};  // a round of discovery: SPDPInterval
+constexpr int kMostRounds = 4;                            // until one that was told to end has ended
+constexpr int kUrgent = -10;                              // nice values: of those on which braking waits,
+constexpr int kPrompt = -5;                               // and driving;
+constexpr int kStepBack = 5;                              // of the others, where nobody may be put in front
+constexpr double kInterfacePatience = 60.0;  // [s] then systemd tries again, without counting it as dying at once
+constexpr double kInterfaceStep = 0.5;       // [s]
+constexpr double kPatience = 5.0;            // [s] for the modules to end in order
 
 std::filesystem::path recordings_folder(const RobotRun& options) {
   return std::filesystem::path{options.deployment.state} / "recordings";
@@ -179,11 +184,62 @@ void tell_exploration(transport::Bus& bus, StatusDisplay& display) {
   });
 }
 
+void tell_reach(const Deployment& deployment, StatusDisplay& display) {
+  const auto reach = transport::dds_reach(deployment.domain, deployment.interface);
+  display.log(LogLevel::info, "bus", in_words(reach));
+  for (const auto& line : deployment.ros_lines())
+    display.log(LogLevel::info, "bus", "for ROS 2 (" + line.implementation + "): " + line.line);
+}
+
+/// Before any module runs: two robots of one name would each obey the other's sensors and drive the other's base. One
+/// that is just ending gets some time for it; one that was killed does not count, for its writers no longer live.
+void look_for_others(transport::DdsBus& bus, const Deployment& deployment, StatusDisplay& display) {
+  const auto command = transport::topic_info(topics::kCommandVelocity);
+  const std::string health = bus.wire_name(transport::topic_info(topics::kHealth));
+  int commanders = bus.other_writers(command);  // from now on it is watched whether they live
+  bool is_robot = true;
+  for (int round = 0; round < kMostRounds && is_robot; ++round) {
+    std::stop_source stop;
+    bus.after(kLookRound, [&stop] { stop.request_stop(); });
+    bus.run(stop.get_token());
+    commanders = bus.other_writers(command);
+    is_robot = commanders > 0 && has_robot(transport::discovered(bus.participant()), health, bus.wire_name(command));
+  }
+  const std::string domain = "domain " + std::to_string(deployment.domain);
+  if (is_robot)
+    throw CommandFailed{"another robot " +
+                        (deployment.name.empty() ? std::string{"without a name"} : "named '" + deployment.name + "'") +
+                        " is on " + domain +
+                        ": both would drive both bases. Give this one a --name or a --domain of its own"};
+  if (commanders > 0)
+    display.log(LogLevel::warning, "bus",
+                (commanders == 1 ? std::string{"another program publishes"}
+                                 : std::to_string(commanders) + " other programs publish") +
+                    " cmd_vel on " + domain + ": the base obeys whoever spoke last; `docent ros check` names them");
+}
+
+/// A computer may start before its network does: the interface gets time to come up.
+void await_interface(const Deployment& deployment, StatusDisplay& display) {
+  if (!transport::dds_reach(deployment.domain, deployment.interface).uri.empty()) return;
+  const auto look = [&] { return transport::check_interface(deployment.interface, transport::network_interfaces()); };
+  auto there = look();
+  if (there) return;
+  display.log(LogLevel::warning, "bus", there.error().message + ": waiting for it");
+  for (double waited = 0.0; !there && waited < kInterfacePatience; waited += kInterfaceStep) {
+    if (wait_for_end_signal(kInterfaceStep) != 0) throw CommandFailed{"", 0};
+    there = look();
+  }
+}
+
 std::unique_ptr<transport::DdsBus> join(const Deployment& deployment, StatusDisplay& display) {
+  await_interface(deployment, display);
   const auto config = value_or_fail(deployment.load_config(), kExitBadConfiguration);
-  transport::DdsOptions dds = deployment.bus_options(deployment.domain, "up", config.body());
-  dds.warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
-  return value_or_fail(transport::DdsBus::create(std::move(dds)));
+  transport::DdsOptions options = deployment.bus_options(deployment.domain, "up", config.body());
+  options.warn = [&display](const std::string& text) { display.log(LogLevel::warning, "bus", text); };
+  auto bus = value_or_fail(transport::DdsBus::create(std::move(options)));
+  look_for_others(*bus, deployment, display);
+  tell_reach(deployment, display);
+  return bus;
 }
 
 }  // namespace
