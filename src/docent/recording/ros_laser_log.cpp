@@ -18,7 +18,7 @@ namespace {
 constexpr Duration kStep = std::chrono::milliseconds{20};  ///< from message to message, where their order is all
 constexpr double kTilt = 0.15;                             ///< [rad] from here on a scanner's plane is not the floor's
 constexpr double kStill = 1e-3;                            ///< [m, rad]
-constexpr double kLeastWay = 1.0;                          ///< [m] by speeds
+constexpr double kLeastWayBySpeeds = 1.0;                  ///< [m] by speeds
 constexpr Duration kApart = std::chrono::seconds{1};       ///< clocks; less may be the time that a message takes
 
 /// The same scan with its beams in the order of rising bearings, and with a reach: drivers that know none say infinity.
@@ -313,7 +313,8 @@ void RosLaserLogBuilder::use_odometry() {
     return distance(pose.position(), first.position()) < kStill &&
            std::abs((pose.theta - first.theta).radians()) < kStill;
   };
-  if (std::all_of(log_.odometry.begin(), log_.odometry.end(), stands) && way_by_speeds(log_.odometry) > kLeastWay)
+  if (std::all_of(log_.odometry.begin(), log_.odometry.end(), stands) &&
+      way_by_speeds(log_.odometry) > kLeastWayBySpeeds)
     log_.notes.push_back("the odometry of " + name + " says speeds, but its place stands: so does the robot here");
   take_out_jumps();
   std::stable_sort(log_.odometry.begin(), log_.odometry.end(),

@@ -24,7 +24,7 @@ struct SimulationRunOptions {
   std::uint64_t seed = 1;
   std::string crowd = "busy";
   std::optional<std::size_t> people;  ///< instead of the crowd level's density
-  std::string bodies = "legs";        ///< how people are built: legs, or discs down to the floor
+  std::string bodies = "discs";       ///< how people are built: legs, or discs down to the floor
   std::optional<double> heedless;     ///< 0..1 share of people who do not evade
   std::optional<double> requests_per_hour;
   std::string scenario;                          ///< file; empty: nothing special happens

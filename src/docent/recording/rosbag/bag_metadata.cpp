@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The names that metadata.yaml lists; other programs' keys do not matter.
-Result<std::vector<std::string>> listed(const fs::path& metadata) {
+Result<std::vector<std::string>> files_listed_in(const fs::path& metadata) {
   const auto file = YamlFile::load(metadata);
   if (!file) return tl::unexpected<Error>(file.error());
   const YAML::Node root = file->root();
@@ -50,7 +50,7 @@ std::vector<fs::path> parts_of_bag(const fs::path& folder, std::vector<std::stri
   });
   const fs::path metadata = folder / "metadata.yaml";
   if (!fs::exists(metadata, error)) return there;
-  const auto names = listed(metadata);
+  const auto names = files_listed_in(metadata);
   if (!names) {
     notes.push_back(names.error().message + ": all parts that are there are read");
     return there;

@@ -52,7 +52,7 @@ struct CrowdParams {
   double heedless_run_rate = 0.2;  ///< [1/s] such a child starts to run about
   double near_share = 0.0;         ///< of all people, kept within 5 m of the robot; packed: 0.25
 
-  PhysiqueParams physique;  ///< how they are built
+  PhysiqueParams physique{.bodies = Bodies::discs};  ///< how they are built: legs where a run asks for them
 };
 
 }  // namespace docent::simulator
