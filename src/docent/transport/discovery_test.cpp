@@ -7,7 +7,7 @@
 
 #include "docent/transport/dds_bus.h"
 
-namespace docent::transport {
+namespace docent::transport::discovery_test {
 namespace {
 
 constexpr int kDomain = 49;  // other tests run at the same time in other domains
@@ -97,4 +97,4 @@ TEST(Discovery, WhoIsOnTheDomainIsFound) {
 }
 
 }  // namespace
-}  // namespace docent::transport
+}  // namespace docent::transport::discovery_test

@@ -13,7 +13,7 @@
 #include "docent/transport/dds_bus.h"
 #include "docent/transport/type_hash.h"
 
-namespace docent::transport {
+namespace docent::transport::ros_graph_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -189,4 +189,4 @@ TEST(RosGraph, NamesAreThoseThatRos2Allows) {
 }
 
 }  // namespace
-}  // namespace docent::transport
+}  // namespace docent::transport::ros_graph_test

@@ -22,13 +22,6 @@ constexpr double kSmallDisk = 5.0;    // [GB] an hour of recording has some 0.3
 constexpr double kSmallMemory = 1.8;  // [GB]
 constexpr long kFewProcessors = 2;
 
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 /// The folder, or the nearest one above it that is there.
 std::filesystem::path there(std::filesystem::path folder) {
   std::error_code error;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,14 @@ enum class Verdict {
   wrong,  ///< it will not drive, or not as it should
 };
 [[nodiscard]] const char* to_text(Verdict verdict);
+
+/// As printf has it; at most 239 letters.
+template <class... Values>
+[[nodiscard]] std::string text_of(const char* format, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
 
 /// One line of the page.
 struct Finding {

@@ -33,13 +33,6 @@ void add(Finding& finding, Verdict verdict, const std::string& what) {
   finding.text += (finding.text.empty() ? "" : "; ") + what;
 }
 
-template <class... Values>
-std::string text_of(const char* format, Values... values) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 }  // namespace
 
 Sensors::Sensors(transport::Bus& bus, const robot::RobotBody& body, const BaseKind& kind)
