@@ -75,7 +75,7 @@ TEST(Discovery, AnotherRobotTellsItsHealthAndCommandsABase) {
 
 TEST(Discovery, WhoIsOnTheDomainIsFound) {
   const auto base = std::move(*DdsBus::create({kDomain, "", {}}));
-  const auto scans = base->publisher(topics::kScanFront);
+  [[maybe_unused]] const auto scans = base->publisher(topics::kScanFront);
   base->subscribe<geometry_msgs::Twist>(topics::kCommandVelocity, [](const auto&) {});
   const auto bus = std::move(*DdsBus::create({kDomain, "", {}}));
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{10};
