@@ -20,7 +20,7 @@ built_and_tested() {
   stage build cmake --build --preset dev -j "$(nproc)"  # more at a time take longer in all
   wait "$packages_id"
   count_aside packages-of-the-tests
-  stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
+  stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end|turtlebot" -j2 --no-tests=error
   checks
 }
 
@@ -82,7 +82,7 @@ tier_quick() {
   if [ -n "$everything" ]; then
     configure
     stage build cmake --build --preset dev -j "$(nproc)"
-    stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end" -j2 --no-tests=error
+    stage unit-and-replay-tests ctest --preset dev -LE "closed_loop|end_to_end|turtlebot" -j2 --no-tests=error
   else
     # Suites that run no program of the build need none.
     for name in "${short[@]}"; do

@@ -63,6 +63,10 @@ void fill(geometry_msgs::PoseWithCovarianceStamped& pose, Rng& /*rng*/) {
   pose.pose.covariance[0] = pose.pose.covariance[7] = 0.25;
   pose.pose.covariance[35] = 0.07;
 }
+void fill(geometry_msgs::PoseStamped& pose, Rng& /*rng*/) {
+  pose.header.frame_id = "map";
+  pose.pose = to_message(here());
+}
 void fill(sensor_msgs::Range& range, Rng& rng) {
   const auto index = static_cast<int>(rng.integer(0, 23));
   range.header.frame_id =
@@ -166,7 +170,8 @@ void fill(docent_msgs::LiveMapUpdate& update, Rng& /*rng*/) {
 }  // namespace
 
 ModuleStage::ModuleStage(const std::string& module, std::filesystem::path state) : museum_{room()} {
-  for (const char* setting : {"web.port=0", "record.enabled=false"}) (void)config_.set(setting);
+  for (const char* setting : {"web.port=0", "record.enabled=false", "mission.goal_poses=true"})
+    (void)config_.set(setting);
   world_ = hub_.connect("world");
   for_each_robot_topic([this]<class T>(const Topic<T>& topic) {
     auto publisher = world_->publisher(topic);

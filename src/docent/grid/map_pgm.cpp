@@ -34,8 +34,12 @@ class PgmImage final : public MapImage {
       return {};
     }
     const std::uintmax_t wanted = count * sample_;
-    take();  // the one white space behind the header
-    if (rest() > wanted) pass_white_space(rest() - wanted);
+    const bool has_lines_of_windows = lines_of_windows_ > 0;
+    const int end = take();  // the one white space behind the header
+    if (has_lines_of_windows && end == '\r' && rest() > wanted && file_.peek() == '\n')
+      take();
+    else if (rest() > wanted)
+      pass_white_space(rest() - wanted);
     if (rest() < wanted)
       return fault("PGM ends early: " + std::to_string(wanted) + " bytes of pixels expected, " +
                    std::to_string(rest()) + " found");
@@ -82,6 +86,7 @@ class PgmImage final : public MapImage {
     const int c = file_.get();
     if (c == std::char_traits<char>::eof()) return c;
     ++at_;
+    if (c == '\r' && file_.peek() == '\n') ++lines_of_windows_;
     if (c == '\n' || (c == '\r' && file_.peek() != '\n')) ++line_;
     return c;
   }
@@ -127,7 +132,8 @@ class PgmImage final : public MapImage {
   std::ifstream file_;
   const std::string name_;
   std::uintmax_t bytes_ = 0, at_ = 0;
-  long line_ = 1, rows_ = 0;  ///< rows_: that were read
+  long line_ = 1, lines_of_windows_ = 0;  ///< that end in CR LF
+  long rows_ = 0;                         ///< that were read
   bool is_text_ = false;
   std::size_t sample_ = 1;  ///< [bytes]
   std::string row_;

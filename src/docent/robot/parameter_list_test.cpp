@@ -55,7 +55,8 @@ TEST(ParameterList, ListsEveryKeyInOrderWithItsValue) {
   EXPECT_EQ(row_of(*rows, "force").value, "0.1");
   EXPECT_EQ(row_of(*rows, "fingers").value, "[[1, 0.25]]");
   EXPECT_EQ(row_of(*rows, "sensors").value,
-            "[{name: front, topic: \"\", frame: elbow, x: 0.5, y: 0, heading: 90, field: 180, upside_down: false, "
+            "[{name: front, topic: \"\", frame: elbow, x: 0.5, y: 0, heading: 90, height: 0.38, field: 180, "
+            "upside_down: false, "
             "max_range: 0, zero: auto, beams: 0, rate: 10, clockwise: false, no_return: greatest}]");
   EXPECT_EQ(row_of(*rows, "force").depth, 2);
   EXPECT_EQ(row_of(*rows, "force").declared_in, "Grip");

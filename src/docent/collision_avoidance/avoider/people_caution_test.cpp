@@ -57,6 +57,7 @@ double push_of_who_steps_in(std::uint64_t seed, double before, const AvoiderPara
 TEST(PeopleCaution, DoesNotPushWhoStepsOutOfARow) {
   AvoiderParams blunt = Rehearsal::without_sonar();
   blunt.people.surprise = 0.0;
+  blunt.body = {.ahead = 0.0, .aside = 0.0};
   double worst = 0.0;
   double worst_of_blunt = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -136,7 +137,9 @@ TEST(PeopleCaution, TheCheckOfEveryScanSlowsACreepWhereOnlyLessIsHarmless) {
 
 TEST(PeopleCaution, TheChoiceTakesPeopleAsTheyStandAndTheCheckForeseesThem) {
   for (const double speed : {0.0, 0.9}) {  // towards the robot, which stands
-    Avoider avoider{BaseLimits{}, Rehearsal::without_sonar(), {"front laser"}};
+    AvoiderParams params = Rehearsal::without_sonar();
+    params.body = {.ahead = 0.0, .aside = 0.0};  // what is seen of them is all of them
+    Avoider avoider{BaseLimits{}, params, {"front laser"}};
     Time now = time_from_seconds(10.0);
     AvoiderTarget target;
     target.mode = AvoiderTarget::Mode::drive;

@@ -52,7 +52,7 @@ TEST(Scanners, WhatRobotYamlSaysHolds) {
   EXPECT_EQ(read.range_max, 2.5F);
   EXPECT_EQ(read.ranges, (std::vector<float>{2.5F, 2.5F, 2.0F})) << "hung clockwise is counter-clockwise";
   EXPECT_FLOAT_EQ(read.angle_min, -1.0F);
-  EXPECT_EQ(readers.notes(), "scan_front says that it looks 30.0 m far, body.scanners says 2.5 m");
+  EXPECT_EQ(readers.notes(), "scan says that it looks 30.0 m far, body.scanners says 2.5 m");
 }
 
 }  // namespace

@@ -395,6 +395,7 @@ TEST(Crowd, WhoWalksFacesTheirWayAlsoBehindAPram) {
   CrowdParams params;
   params.push_rate = 0.0;
   params.inattentive_share = 0.0;
+  params.physique.bodies = Bodies::legs;
   params.physique.pram_share = 0.3;
   Visit run = make_run(40, 8, robot_at(6.0, 6.0), params);
   double facing = 0.0;
