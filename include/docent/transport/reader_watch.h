@@ -4,6 +4,7 @@
 
 namespace docent::transport {
 
+/// What tells a reader that is deaf from a sensor that is silent.
 struct ReaderWatchParams {
   int regular = 20;       ///< messages that tell how often they come
   double periods = 20.0;  ///< without a message, and
@@ -17,10 +18,11 @@ struct ReaderWatchParams {
 /// scans, one did not for as long as it ran. A new reader hears.
 class ReaderWatch {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< which nobody sets
+  /// Of one reader.
   explicit ReaderWatch(const ReaderWatchParams& params = {}) : params_{params} {}
 
-  void hear(Clock::time_point at);
+  void hear(Clock::time_point at);  ///< a message came
   /// True where a new reader should be made now. @param lives  whether a writer of the topic shows life
   [[nodiscard]] bool is_deaf(Clock::time_point at, bool lives);
 

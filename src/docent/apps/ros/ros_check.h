@@ -7,7 +7,7 @@
 
 #include "docent/robot/robot_config.h"
 #include "docent/transport/dds_reach.h"
-#include "docent/transport/discovery.h"
+#include "docent/transport/discovery/discovery.h"
 
 namespace docent::apps::ros {
 

@@ -29,7 +29,7 @@
 #include "docent/museum/editing/museum_workshop.h"
 #include "docent/recording/join_recordings.h"
 #include "docent/transport/dds_bus.h"
-#include "docent/transport/discovery.h"
+#include "docent/transport/discovery/discovery.h"
 
 namespace docent::apps::up_command {
 namespace {

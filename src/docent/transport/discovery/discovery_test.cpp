@@ -1,4 +1,4 @@
-#include "docent/transport/discovery.h"
+#include "docent/transport/discovery/discovery.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "docent/transport/sha256.h"
+#include "docent/transport/digest/sha256.h"
 
 #include <array>
 #include <bit>
