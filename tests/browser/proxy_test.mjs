@@ -97,7 +97,7 @@ await check('Foxglove and Lichtblick look in, and whoever has no password does n
   ensure((await line(`${taken}foxglove`, { protocols: ['foxglove.sdk.v1'] })).status === 401, 'without a password');
   const url = `${taken.replace('https://', `wss://guide:${encodeURIComponent(PASSWORD_OF_GUIDE)}@`)}foxglove`;
   for (const offered of [[FoxgloveClient.SUPPORTED_SUBPROTOCOL], ['foxglove.sdk.v1'], [FoxgloveClient.SUPPORTED_SUBPROTOCOL, 'foxglove.sdk.v1']]) {
-    const socket = new WebSocket(url, offered, { ca });
+    const socket = new WebSocket(`${taken.replace('https', 'wss')}foxglove`, offered, { ca, auth: `guide:${PASSWORD_OF_GUIDE}` });
     const client = new FoxgloveClient({ ws: socket });
     const channels = await new Promise((resolve, reject) => {
       client.on('advertise', resolve);

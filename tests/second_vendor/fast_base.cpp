@@ -164,6 +164,13 @@ int tour(FastNode& node, std::uint32_t steps, bool is_stamped) {
       return fail("frame " + std::to_string(step));
   }
   std::cout << "OK " << steps << " steps, " << repeated << " sent again" << std::endl;
+  // A program that ends takes along what nobody has heard yet.
+  dds::PublicationMatchedStatus heard;
+  for (int i = 0; i < 100 && heard.current_count == 0; ++i) {
+    std::this_thread::sleep_for(100ms);
+    live_map->get_publication_matched_status(heard);
+  }
+  live_map->wait_for_acknowledgments({5, 0});
   return 0;
 }
 

@@ -252,7 +252,8 @@ Program docent(std::vector<std::string> words, bool has_state) {
                                        "--robot",  DOCENT_SOURCES "/robots/one-scanner.yaml",
                                        "--set",    "body.sonars=0",
                                        "--set",    "body.infrareds=0",
-                                       "--set",    "body.tactile=false"};
+                                       "--set",    "body.tactile=false",
+                                       "--set",    "body.scanners=[{name: front, x: 0.0, topic: scan_front}]"};
   words.insert(words.end(), robot.begin(), robot.end());
   if (has_state) {
     const std::string state = ::testing::TempDir() + "second-vendor-" + words[1] + std::to_string(getpid());
