@@ -10,9 +10,9 @@ set -uo pipefail
 deb=$given
 is() { diff <(echo "$1") <(echo "$2"); }
 
-make_root "$deb" -- nginx-core nginx-common openssl curl
+make_root "$deb" -- nginx nginx-common openssl curl
 cp "$deb" "$root/tmp/docent.deb"
-mkdir -p "$root"/var/{lib,cache}/private "$root/etc/systemd/system/multi-user.target.wants"
+mkdir -p "$root"/usr/local/bin "$root"/tmp "$root"/var/{lib,cache}/private "$root/etc/systemd/system/multi-user.target.wants"
 expect "dpkg installs it" inside dpkg -i /tmp/docent.deb
 [ $failed -eq 0 ] || finish
 
