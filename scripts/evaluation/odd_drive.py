@@ -110,7 +110,7 @@ class Scanner:
         on_robot = np.arctan2(ways[1], ways[0])
         c, s = math.cos(heading), math.sin(heading)
         origin = np.array([[x + c * self.place[0] - s * self.place[1], y + s * self.place[0] + c * self.place[1]]])
-        ranges = cast(drive.walls, np.repeat(origin, self.beams, axis=0), on_robot + heading).astype(np.float32)
+        ranges = told_apart(cast(drive.walls, np.repeat(origin, self.beams, axis=0), on_robot + heading).astype(np.float32), drive.truth)
         points = np.stack([self.place[0] + ranges * np.cos(on_robot), self.place[1] + ranges * np.sin(on_robot)], axis=1)
         ranges = ranges.tolist()
         drive.truth[fingerprint(ranges)] = (time, drive.odometry_at(time), dict(zip(ranges, points.tolist())))
@@ -127,6 +127,18 @@ class Scanner:
             place, turn, parent = between.T @ (place - at), between.T @ turn, child
         all_of.append((stamp, parent, self.frame, tuple(place), quaternion_of(turn)))
         return all_of
+
+
+def told_apart(ranges, truth):
+    """No reading twice in a sweep, and no sweep twice in a drive, as of a robot that stands: what is found is looked up by these."""
+    seen = set()
+    for k in range(len(ranges)):
+        while float(ranges[k]) in seen:
+            ranges[k] = np.nextafter(ranges[k], np.float32(np.inf))
+        seen.add(float(ranges[k]))
+    while fingerprint(ranges.tolist()) in truth:
+        ranges[-1] += np.float32(1e-5)
+    return ranges
 
 
 def fingerprint(ranges):
