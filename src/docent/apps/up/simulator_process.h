@@ -10,12 +10,12 @@ inline constexpr const char* kSimulatorProcess = "sim";
 
 /// What the simulated museum is told besides.
 struct SimulatorOptions {
-  std::string crowd = "busy";   ///< empty, quiet, busy, packed
+  std::string crowd = "busy";    ///< empty, quiet, busy, packed
   std::string bodies = "discs";  ///< how people are built: legs or discs
-  double heedless = 0.0;        ///< 0..1 share of people who do not evade
-  std::string start;            ///< X,Y,DEG; empty: somewhere
-  std::string world;            ///< what is simulated, a museum's folder or its file; empty: the robot's own museum
-  std::string scenario;         ///< file; empty: nothing special happens
+  double heedless = 0.0;         ///< 0..1 share of people who do not evade
+  std::string start;             ///< X,Y,DEG; empty: somewhere
+  std::string world;             ///< what is simulated, a museum's folder or its file; empty: the robot's own museum
+  std::string scenario;          ///< file; empty: nothing special happens
   std::string mode = "open";
   bool has_cameras = true;
   double requests_per_hour = -1.0;  ///< < 0: as the museum's simulation says
