@@ -8,9 +8,9 @@
 namespace docent::mapping::calibration_store_test {
 namespace {
 
-class Store : public ::testing::Test {
+class CalibrationStoreTest : public ::testing::Test {
  protected:
-  ~Store() override { std::filesystem::remove(path); }
+  ~CalibrationStoreTest() override { std::filesystem::remove(path); }
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("docent_calibration_" + std::to_string(getpid()) + ".yaml");
   CalibrationStore store{path};
@@ -18,7 +18,7 @@ class Store : public ::testing::Test {
   std::vector<CalibratedScanner> found{1};
 };
 
-TEST_F(Store, GivesBackWhatItWasGiven) {
+TEST_F(CalibrationStoreTest, GivesBackWhatItWasGiven) {
   EXPECT_FALSE(store.load(nominal));
   found[0].estimate.state = {{0.15, 0.01, Angle::degrees(7.0)}, 0.05, 1.01, 0.99, 0.001};
   found[0].estimate.covariance = 4e-4 * MountMatrix::Identity();
@@ -32,7 +32,7 @@ TEST_F(Store, GivesBackWhatItWasGiven) {
   EXPECT_EQ(loaded->front().pairs, 33U);
 }
 
-TEST_F(Store, BeginsAnewWithAnotherRobotYamlOrADamagedFile) {
+TEST_F(CalibrationStoreTest, BeginsAnewWithAnotherRobotYamlOrADamagedFile) {
   found[0].pairs = 33;
   found[0].estimate.covariance = MountMatrix::Identity();
   ASSERT_TRUE(store.save(nominal, found));

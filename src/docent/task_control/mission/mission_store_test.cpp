@@ -10,13 +10,13 @@
 namespace docent::task_control {
 namespace {
 
-class Store : public testing::Test {
+class MissionStoreTest : public testing::Test {
  protected:
-  Store() : folder_{std::filesystem::temp_directory_path() / ("docent_store_" + std::to_string(getpid()))} {
+  MissionStoreTest() : folder_{std::filesystem::temp_directory_path() / ("docent_store_" + std::to_string(getpid()))} {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
-  ~Store() override { std::filesystem::remove_all(folder_); }
+  ~MissionStoreTest() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::filesystem::path path() const { return folder_ / "mission.sqlite"; }
   [[nodiscard]] MissionStore open(const std::string& name = "abc") const {
     auto store = MissionStore::open(path(), name, false);
@@ -48,7 +48,7 @@ MissionMemory full_memory() {
   return memory;
 }
 
-TEST_F(Store, GivesBackWhatWasSaved) {
+TEST_F(MissionStoreTest, GivesBackWhatWasSaved) {
   MissionMemory memory = full_memory();
   RequestBoard& board = memory.schedule.board;
   board.add(request("a"), RequestStatus::queued, {}, {1});
@@ -106,7 +106,7 @@ TEST_F(Store, GivesBackWhatWasSaved) {
   EXPECT_EQ(loaded->schedule.board.revision(), board.revision());
 }
 
-TEST_F(Store, LearnsOnInAFileOfBefore) {
+TEST_F(MissionStoreTest, LearnsOnInAFileOfBefore) {
   {
     MissionStore store = open();
     MissionMemory memory = full_memory();
@@ -131,7 +131,7 @@ TEST_F(Store, LearnsOnInAFileOfBefore) {
   EXPECT_EQ(lessons.front().lesson.sum, 25.0);
 }
 
-TEST_F(Store, RemembersOldRequestsForEver) {
+TEST_F(MissionStoreTest, RemembersOldRequestsForEver) {
   MissionStore store = open();
   MissionMemory memory;
   for (int i = 0; i < 250; ++i) {
@@ -149,7 +149,7 @@ TEST_F(Store, RemembersOldRequestsForEver) {
   EXPECT_EQ(loaded->schedule.board.entries().back().request.id, "r249");
 }
 
-TEST_F(Store, ADeathLosesNothingThatWasSaved) {
+TEST_F(MissionStoreTest, ADeathLosesNothingThatWasSaved) {
   const pid_t child = fork();
   if (child == 0) {
     auto store = MissionStore::open(path(), "abc", true);
@@ -168,7 +168,7 @@ TEST_F(Store, ADeathLosesNothingThatWasSaved) {
   EXPECT_TRUE(loaded->schedule.visit);
 }
 
-TEST_F(Store, SetsADamagedFileAside) {
+TEST_F(MissionStoreTest, SetsADamagedFileAside) {
   ASSERT_TRUE(write_file_atomically(path(), std::string(5000, 'x')));
   MissionStore store = open();
   EXPECT_EQ(store.set_aside(), path().string() + ".damaged");
@@ -177,7 +177,7 @@ TEST_F(Store, SetsADamagedFileAside) {
   EXPECT_TRUE(store.save(full_memory()));
 }
 
-TEST_F(Store, AFolderThatIsNotThereIsOneClearLine) {
+TEST_F(MissionStoreTest, AFolderThatIsNotThereIsOneClearLine) {
   const auto store = MissionStore::open(folder_ / "absent" / "mission.sqlite", "abc", false);
   ASSERT_FALSE(store);
   EXPECT_NE(store.error().message.find("mission.sqlite"), std::string::npos);
