@@ -4,8 +4,8 @@
 
 #include "docent/base/check.h"
 #include "docent/messages/topics.h"
-#include "docent/transport/ros_graph.h"
 #include "docent/transport/digest/sha256.h"
+#include "docent/transport/ros_graph.h"
 
 namespace docent::transport {
 namespace {
