@@ -268,6 +268,7 @@ void DdsBus::open_reader(Subscription& subscription) {
 void DdsBus::renew_deaf_readers() {
   for (const auto& each : subscriptions_) {
     if (each->info.qos != Qos::sensor || !each->watch.is_deaf(Steady::now(), alive_writers(each->name) > 0)) continue;
+    graph_->remove_reader(each->reader);
     dds_delete(each->reader);  // no listener runs after this
     open_reader(*each);
     ++counters_.renewed;

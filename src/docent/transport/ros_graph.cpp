@@ -71,6 +71,11 @@ void RosGraph::add_reader(std::int32_t reader) {
   is_new_ = true;
 }
 
+void RosGraph::remove_reader(std::int32_t reader) {
+  std::erase(info_.node_entities_info_seq.front().reader_gid_seq, gid_of(reader));
+  is_new_ = true;
+}
+
 void RosGraph::add_writer(std::int32_t writer) {
   info_.node_entities_info_seq.front().writer_gid_seq.push_back(gid_of(writer));
   is_new_ = true;

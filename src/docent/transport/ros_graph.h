@@ -75,6 +75,8 @@ class RosGraph {
 
   /// Of DDS; the next `publish` names it.
   void add_reader(std::int32_t reader);
+  /// One that is about to be deleted.
+  void remove_reader(std::int32_t reader);
   /// Likewise.
   void add_writer(std::int32_t writer);
   /// Whether there is anything new since the last `publish`.
