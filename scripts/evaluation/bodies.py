@@ -9,11 +9,12 @@ import csv
 
 from evaluation.bounds import bounded
 from evaluation.reports import KINDS, computed_of, contacts_of, mean_speed
-from evaluation.safety import HEEDLESS, made_museum
+from evaluation.safety import made_museum
 from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian", "collection"]
 CROWDS = ["busy", "packed"]
+HEEDLESS = 0.1  # share of people who do not evade
 BODIES = ["legs", "discs"]
 CREEPS = 0.02  # [m/s] a touch with more of the robot's own speed is one that it made, harmless as it may be
 MOST_TIME = 1.1  # of the discs' processor time

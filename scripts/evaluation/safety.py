@@ -1,4 +1,4 @@
-"""Nothing touched: busy and packed crowds in three museums, many seeds. One in ten of the people evades nothing.
+"""Nothing touched: busy and packed crowds in three museums, many seeds.
 
 Bonn, the Smithsonian, and a museum that `docent museum` makes of a recorded map with recorded pedestrians, who react to
 nothing. Every cell of museum and crowd needs its exposure: the rates below are for an hour of simulated time, and runs
@@ -18,7 +18,7 @@ from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian", "collection"]
 CROWDS = ["busy", "packed"]
-HEEDLESS = 0.0  # untried above 0: share of people who do not evade: where everybody does, a robot that is blind to people touches nobody either
+HEEDLESS = 0.0  # share of people who do not evade; more is untried. Where everybody evades, a robot that is blind to people touches nobody either
 KM_AN_HOUR = 0.25
 PASSES_AN_HOUR = 30
 RECORDINGS = {"eth": 0.60, "students01": 0.40}  # share of the tracks that the museum must keep
