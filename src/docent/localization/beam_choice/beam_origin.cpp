@@ -61,6 +61,12 @@ std::vector<sensor_models::BeamOrigin> beam_origins(const sensor_models::RayCast
       origins[i] = sensor_models::BeamOrigin::map;
       continue;
     }
+    // What ends at a wall of the map is the wall, whatever lies before it: most rays need not be followed.
+    const double clearance = static_cast<double>(caster.clearance(best * sensor_models::endpoint(beam)));
+    if (clearance < params.near) {
+      origins[i] = sensor_models::BeamOrigin::map;
+      continue;
+    }
     bool is_odd = false;
     if (params.filter == "entropy") {
       is_odd = i < entropy_gains.size() && static_cast<double>(entropy_gains[i]) > params.gamma;
@@ -69,11 +75,9 @@ std::vector<sensor_models::BeamOrigin> beam_origins(const sensor_models::RayCast
       if (!shorter) continue;
       is_odd = *shorter > params.sureness;
     }
-    origins[i] = sensor_models::BeamOrigin::map;
-    if (!is_odd) continue;
-    const double clearance = static_cast<double>(caster.clearance(best * sensor_models::endpoint(beam)));
-    if (clearance >= params.near)
-      origins[i] = clearance < params.clear ? sensor_models::BeamOrigin::maybe_map : sensor_models::BeamOrigin::not_map;
+    origins[i] = !is_odd                    ? sensor_models::BeamOrigin::map
+                 : clearance < params.clear ? sensor_models::BeamOrigin::maybe_map
+                                            : sensor_models::BeamOrigin::not_map;
   }
   return origins;
 }

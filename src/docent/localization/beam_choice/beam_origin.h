@@ -46,8 +46,9 @@ struct PersonFilterParams {
                                                         const PersonFilterParams& params);
 
 /// Origins of all beams of a sweep by one of the filters, and by how far the endpoint, seen from the best mode, lies
-/// from everything in the map. `modes`: at the time of the sweep, best first; empty: all unknown. `entropy_gains`
-/// [beams]: eq. 10 of [Rhino1999], H after minus H before [nat], for the entropy filter; else empty.
+/// from everything in the map: what ends within `params.near` of a wall is the map's, and no ray is followed for it.
+/// `modes`: at the time of the sweep, best first; empty: all unknown. `entropy_gains` [beams]: eq. 10 of [Rhino1999], H
+/// after minus H before [nat], for the entropy filter; else empty.
 [[nodiscard]] std::vector<sensor_models::BeamOrigin> beam_origins(const sensor_models::RayCaster& caster,
                                                                   std::span<const BeliefMode> modes,
                                                                   const sensor_models::RangeSweep& sweep,

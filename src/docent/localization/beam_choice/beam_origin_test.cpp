@@ -57,6 +57,17 @@ TEST(BeamOrigin, NearAWallItMayBeTheWall) {
   EXPECT_EQ(beam_origins(caster, at(4.0, 0.08), ahead(2.0), {}, kMaxRange, {})[0], sensor_models::BeamOrigin::map);
 }
 
+TEST(BeamOrigin, WhatEndsAtAWallIsTheWallAcrossUnknownLand) {
+  OccupancyGrid map = room();
+  for (int row = 0; row < 160; ++row) map.cells[map.frame.index({10, row})] = OccupancyGrid::kOccupied;
+  const sensor_models::RayCaster caster{map};
+  const double to_wall = 4.0 - 0.525;
+  const sensor_models::RangeSweep back{{{std::numbers::pi, to_wall, false}, {std::numbers::pi, to_wall - 0.3, false}}};
+  const auto origins = beam_origins(caster, at(4.0, 4.0), back, {}, kMaxRange, {});
+  EXPECT_EQ(origins[0], sensor_models::BeamOrigin::map);
+  EXPECT_EQ(origins[1], sensor_models::BeamOrigin::unknown) << "short of the wall, and nobody knows what is there";
+}
+
 TEST(BeamOrigin, ShorterIsAveragedOverTheModes) {
   const sensor_models::RayCaster caster{room()};
   auto modes = at(4.0, 4.0, 0.8);
