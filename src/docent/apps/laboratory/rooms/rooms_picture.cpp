@@ -8,9 +8,39 @@
 #include "docent/pictures/map_picture.h"
 
 namespace docent::apps::rooms_command {
+namespace {
+
+/// Across the way through a door, from one jamb to the other. Both ends are its middle where the map shows no such way.
+std::vector<Point2> across(const mapping::Gap& gap, const mapping::Regions& regions) {
+  constexpr double kNear = 0.7;  // [m] of it the places on both sides are looked at
+  const CellIndex middle = regions.frame.cell_at(gap.at);
+  const int reach = static_cast<int>(kNear / regions.frame.resolution);
+  Point2 first{}, second{};
+  int of_first = 0, of_second = 0;
+  for (int row = middle.row - reach; row <= middle.row + reach; ++row) {
+    for (int column = middle.column - reach; column <= middle.column + reach; ++column) {
+      const CellIndex cell{column, row};
+      if (!regions.frame.holds(cell)) continue;
+      const int region = regions.of[regions.frame.index(cell)];
+      if (region != gap.first && region != gap.second) continue;
+      const Point2 at = regions.frame.centre(cell);
+      if (distance(at, gap.at) > kNear) continue;
+      (region == gap.first ? first : second) = (region == gap.first ? first : second) + at;
+      ++(region == gap.first ? of_first : of_second);
+    }
+  }
+  if (of_first == 0 || of_second == 0) return {gap.at, gap.at};
+  const Point2 through = (1.0 / of_second) * second - (1.0 / of_first) * first;
+  const double length = norm(through);
+  if (length < 1e-6) return {gap.at, gap.at};
+  const Point2 half = (0.5 * gap.width / length) * Point2{-through.y, through.x};
+  return {gap.at - half, gap.at + half};
+}
+
+}  // namespace
 
 pictures::Figure draw_rooms(const OccupancyGrid& map, const mapping::TopologicalMap& rooms) {
-  static constexpr pictures::Color kHallway{150, 150, 150, 110};
+  static constexpr pictures::Color kHallway{250, 205, 70, 110};
   constexpr pictures::Color kDoor{200, 30, 30, 255};
   const auto count = [&rooms](mapping::PlaceKind kind) {
     return std::count_if(rooms.places.begin(), rooms.places.end(),
@@ -32,10 +62,8 @@ pictures::Figure draw_rooms(const OccupancyGrid& map, const mapping::Topological
                : pictures::with_alpha(pictures::distinct(static_cast<int>(place)), 110);
   });
   for (const mapping::Gap& gap : rooms.regions.gaps) {
-    const Point2 from = rooms.places[static_cast<std::size_t>(gap.first)].middle;
-    const Point2 to = rooms.places[static_cast<std::size_t>(gap.second)].middle;
-    pictures::draw_path(axes, std::vector<Point2>{from, gap.at, to}, 0.8, pictures::with_alpha(kDoor, 120));
-    pictures::draw_points(axes, std::vector<Point2>{gap.at}, 5.0, kDoor);
+    pictures::draw_path(axes, across(gap, rooms.regions), 2.5, kDoor);
+    pictures::draw_points(axes, std::vector<Point2>{gap.at}, 2.5, kDoor);
   }
   std::vector<Point2> middles;
   for (const mapping::Place& place : rooms.places) middles.push_back(axes.page(place.middle));
@@ -46,7 +74,7 @@ pictures::Figure draw_rooms(const OccupancyGrid& map, const mapping::Topological
   pictures::add_map_legend(figure);
   figure.add_legend(pictures::legend_area("hallway", kHallway));
   figure.add_legend(pictures::legend_area("rooms", pictures::with_alpha(pictures::distinct(0), 110)));
-  figure.add_legend(pictures::legend_disc("door, and what it joins", 5.0, kDoor));
+  figure.add_legend(pictures::legend_line("door, from jamb to jamb", 2.5, kDoor));
   return figure;
 }
 
