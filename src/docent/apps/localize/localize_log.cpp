@@ -9,6 +9,7 @@
 #include "docent/apps/shared/log_defaults.h"
 #include "docent/base/files.h"
 #include "docent/localization/beam_choice/moved_things.h"
+#include "docent/localization/judgement/told_pose.h"
 #include "docent/localization/judgement/view_matcher.h"
 
 namespace docent::apps::localize_command {
@@ -95,6 +96,7 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
   run.poses.resize(log.scans.size());
   const bool has_two = has_two_lasers(log);
   std::size_t fitted = 0;
+  localization::ToldPose told;
   std::optional<std::size_t> known;  // the first scan at which the robot said where it is
   const double end = log.scans.empty() ? 0.0 : to_seconds(log.scans.back().time);
   for (std::size_t n = 0; n < log.scans.size(); ++n) {
@@ -130,9 +132,15 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
     }
     LoggedPose& pose = run.poses[i];
     const localization::Verdict& verdict = localizer.verdict();
-    pose = {i, logged, {}, false, verdict.localized(), {}, verdict.p_lost(), verdict.doubt()};
-    if (const auto best = localizer.map_from_robot(odom_from_tracked)) {
-      pose.map_from_base = *best * inverse(tracked);
+    pose = {.scan = i,
+            .time = logged,
+            .localized = verdict.localized(),
+            .p_lost = verdict.p_lost(),
+            .doubt = verdict.doubt()};
+    const auto best = localizer.map_from_robot(odom_from_tracked);
+    if (best) pose.best_mode = *best * inverse(tracked);
+    if (const auto said = told.tell(best, odom_from_tracked, verdict.localized() || verdict.keeps_its_place())) {
+      pose.map_from_base = *said * inverse(tracked);
       pose.has_pose = true;
     }
     if (!known && (pose.localized || options.start)) known = i;
@@ -157,7 +165,7 @@ void look_back(const recording::LaserLog& log, bool reverse, const sensor_models
     const sensor_models::RangeSweep of_laser = sweep_of(scan, log.max_range);
     sweeps.push_back({has_two ? sensor_models::seen_from(of_laser, scan.base_from_laser) : of_laser,
                       scan.odom_from_base * tracked,
-                      pose.has_pose ? std::optional{pose.map_from_base * tracked} : std::nullopt, pose.localized});
+                      pose.best_mode ? std::optional{*pose.best_mode * tracked} : std::nullopt, pose.localized});
   }
   const auto poses = localization::seen_in_hindsight(caster, sweeps, params);
   for (std::size_t n = 0; n < count; ++n)

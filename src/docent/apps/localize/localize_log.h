@@ -18,14 +18,16 @@ namespace docent::apps::localize_command {
 
 /// Where the robot was at one scan of a log.
 struct LoggedPose {
-  std::size_t scan = 0;  ///< index in the log, also in a reversed run
-  double time = 0.0;     ///< [s] of the log
-  Pose2 map_from_base;
-  bool has_pose = false;           ///< there was a best mode at all
-  bool localized = false;          ///< the robot said where it is, there and then
-  std::optional<Pose2> hindsight;  ///< map_from_base, now that the whole way is over, see localization::HindsightParams
+  std::size_t scan = 0;              ///< index in the log, also in a reversed run
+  double time = 0.0;                 ///< [s] of the log
+  Pose2 map_from_base{};             ///< where it was said to be, see localization::ToldPose
+  std::optional<Pose2> best_mode{};  ///< map_from_base likewise, of the belief's best mode, whatever was said
+  bool has_pose = false;             ///< there was a pose to tell
+  bool localized = false;            ///< the robot said where it is, there and then
+  std::optional<Pose2>
+      hindsight{};  ///< map_from_base, now that the whole way is over, see localization::HindsightParams
   double p_lost = 1.0;
-  localization::Doubt doubt;  ///< what P(lost) was made of
+  localization::Doubt doubt{};  ///< what P(lost) was made of
   [[nodiscard]] bool is_known() const { return localized || hindsight; }
   /// The best that is known now: in hindsight, else there and then.
   [[nodiscard]] const Pose2& best() const { return hindsight ? *hindsight : map_from_base; }
