@@ -119,7 +119,6 @@ TEST_F(TurtlebotTest, UndocksGuidesAndDocks) {
   EXPECT_TRUE(eventually([&] { return watch->look().mission.phase == "charging"; }, 20s)) << told();
   // The task itself is gone as soon as `mission` has heard that it is done.
   EXPECT_TRUE(eventually([&] { return watch->look().events["charger"] > 0; }, 20s)) << told();
-  EXPECT_EQ(watch->look().events["charger_failed"], 0) << told();
   std::this_thread::sleep_for(5s);
   EXPECT_TRUE(is_docked()) << "it stays there: " << told();
   EXPECT_NEAR(place().y, kInDock.y, 0.05);
