@@ -119,7 +119,7 @@ def data_of(content):
 
 
 def mcap(path, messages, packing="", chunks=3, encoding="cdr", pack=lambda d: d, whole_chunks=False):
-    """One file; without chunks where `chunks` is 0. whole_chunks: each says its channels anew."""
+    """One file; without chunks where `chunks` is 0. whole_chunks: each says its channels anew, else the first that has a message of one."""
     def record(op, body):
         return bytes([op]) + struct.pack("<Q", len(body)) + body
 

@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from . import odd_drive, odd_maps, odd_recordings
+from . import odd_drive, odd_map_faults, odd_maps, odd_recordings
 from .tables import Verdict, print_table
 
 PARTS = ["maps", "recordings"]
@@ -57,7 +57,7 @@ def judged(case, answer):
     value = case["cells"] if case["what"] == "map" else case["robots"]
     if value is None:
         return ("noted", "") if says("say") else ("silently wrong", "was read; expected " + (case.get("refusal") or case.get("say")) + "; notes: " + notes)
-    fault = (odd_maps if case["what"] == "map" else odd_drive).fault_of(case, answer)
+    fault = (odd_map_faults if case["what"] == "map" else odd_drive).fault_of(case, answer)
     if fault:
         return ("noted", "") if says("excuse") else ("silently wrong", fault + "; notes: " + notes)
     if case.get("say") and not says("say"):

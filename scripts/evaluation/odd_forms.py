@@ -144,7 +144,7 @@ def out_of_order(folder, rng):
     turned = messages[half:] + messages[:half]
     form = rng.choice(["mcap", "bag", "bag bz2"])
     if form == "mcap":
-        mcap(folder / "odd.mcap", turned, "", rng.choice([0, 2]), whole_chunks=True)
+        mcap(folder / "odd.mcap", turned, rng.choice(["", "zstd", "lz4"]), rng.choice([0, 2, 5]), whole_chunks=rng.random() < 0.3)
         return case_of(folder / "odd.mcap", [drive])
     return case_of(written(folder, rng, turned, form), [drive])
 

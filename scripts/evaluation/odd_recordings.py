@@ -4,10 +4,11 @@ A case: `what` "log", `path`; `robots`: the drives of which one must come out; N
 `excuse`: what the notes must say where the value is another one. The rest: what `fault_of` allows.
 """
 import math
+import struct
 
 from . import odd_clocks, odd_forms
-from .odd_bags import Odometry, Scan, Transforms, about_z
-from .odd_drive import FIRST, Drive, Scanner, kinds, quaternion_of, recorded, turn_about
+from .odd_bags import Odometry, Scan, Transforms, about_z, encoded
+from .odd_drive import FIRST, Drive, Scanner, fingerprint, kinds, quaternion_of, recorded, turn_about
 from .odd_forms import case_of, one, written
 
 
@@ -181,6 +182,27 @@ def mounts(folder, rng):
     return case_of(written(folder, rng, recorded(drive, [scanner], rng)), [drive])
 
 
+def scan_fields(folder, rng):
+    """Scans as drivers fill them in: no reach, 0 or an odd number where nothing comes back, intensities of another count."""
+    drive, scanner, messages = one(rng)
+    odd = rng.choice(["reach 0", "reach infinite", "reach huge", "zeros", "beyond", "failed", "intensities"])
+    near, spoiled, truth = rng.uniform(0.5, 0.9), [], {}  # of a sweep's readings that stay
+    nothing = {"zeros": lambda: 0.0, "beyond": lambda: rng.choice([math.inf, 12.0, 12.5, 64.0]), "failed": lambda: rng.choice([math.nan, -math.inf, 0.01])}.get(odd)
+    for t, k, time, c in messages:
+        if isinstance(c, Scan):
+            far = sorted(c.ranges)[int(near * (len(c.ranges) - 1))]
+            ranges = [nothing() if nothing and r > far else r for r in c.ranges]
+            truth[fingerprint([r for r in ranges if 0.05 <= r < 12.0])] = drive.truth[fingerprint(c.ranges)]
+            most = {"reach 0": 0.0, "reach infinite": math.inf, "reach huge": 1e9}.get(odd, c.most)
+            c = c._replace(ranges=ranges, most=most)
+            if odd == "intensities":
+                count = rng.choice([1, 3, len(ranges) + 2])
+                c = ("raw", encoded(c)[:-4] + struct.pack(f"<I{count}f", count, *[5.0] * count))
+        spoiled.append((t, k, time, c))
+    drive.truth = truth
+    return case_of(written(folder, rng, spoiled, rng.choice(["db3", "mcap"]) if odd == "intensities" else None), [drive])
+
+
 # ---- odometry and readings
 
 def odometry_jumps(folder, rng):
@@ -226,5 +248,5 @@ def readings(folder, rng):
 
 KINDS = {**odd_forms.KINDS, "two robots": two_robots, "two by frames": two_by_frames, "two odometries": two_odometries, "ground truth": truth_topics,
          "topics asked for": asked, "scans made of scans": scan_topics, "odometry in tf": tf_only, "tf under name spaces": tf_spaces, "mounts sent again": tf_again,
-         "base frames": tf_chain, "odd mounts": tf_odd, "clockwise, upside down": mounts, **odd_clocks.KINDS, "odometry that jumps": odometry_jumps,
+         "base frames": tf_chain, "odd mounts": tf_odd, "clockwise, upside down": mounts, "fields of scans": scan_fields, **odd_clocks.KINDS, "odometry that jumps": odometry_jumps,
          "odometry of no use": odometry_useless, "impossible readings": readings}

@@ -40,6 +40,7 @@ void RobotWatch::note(const Topic<T>& topic, const T& message, Clock::time_point
   if constexpr (std::is_same_v<T, docent_msgs::RequestBoard>) now_.board = message;
   if constexpr (std::is_same_v<T, docent_msgs::AvoidState>) now_.avoid = message;
   if constexpr (std::is_same_v<T, docent_msgs::Stop>) now_.stops[message.keeper] = {message, at};
+  if constexpr (std::is_same_v<T, docent_msgs::Event>) ++now_.events[message.kind];
   if constexpr (std::is_same_v<T, docent_msgs::TrueOffer>) {
     if (message.kind == "fault") now_.faults[message.subject] = at;
   }

@@ -36,6 +36,7 @@ class RobotWatch {
     docent_msgs::AvoidState avoid;
     std::map<std::string, Clock::time_point> faults;  ///< by the simulator's sensor: when it last broke
     std::map<std::string, std::pair<docent_msgs::Stop, Clock::time_point>> stops;  ///< by keeper: its last word
+    std::map<std::string, int> events;                                             ///< by kind: how many there were
     bool localized = false;
     Clock::time_point localized_at;  ///< last belief that was sure
   };

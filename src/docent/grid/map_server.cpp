@@ -11,6 +11,7 @@
 #include "docent/base/text.h"
 #include "docent/base/yaml.h"
 #include "docent/grid/map_image.h"
+#include "docent/grid/map_reading.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/grid/turned.h"
 
@@ -26,6 +27,7 @@ constexpr double kSaversUnknown = 205.0 / 255.0;  ///< of white
 constexpr double kNearSaversUnknown = 0.005;      ///< of white
 constexpr std::size_t kLarge = 25'000'000;        ///< [cells]: of a larger map only what is known is kept
 constexpr std::size_t kMost = 400'000'000;        ///< [cells]
+constexpr std::size_t kRowsBetween = 256;         ///< between two words of how far the reading is
 constexpr int kRim = 20;                          ///< [cells] of what is unknown round what is kept
 
 struct MapYaml {
@@ -155,14 +157,15 @@ struct KnownPart {
 };
 
 /// The rows of the image, from the top. What is not at least half opaque is unknown in every mode.
-Result<std::vector<KnownPart>> read_rows(MapImage& image, const Meaning& meaning) {
+Result<std::vector<KnownPart>> read_rows(MapImage& image, const Meaning& meaning, const ReadingProgress& progress) {
   const std::vector<std::int8_t> cell_of = cells_of_shades(meaning, image.white());
   std::vector<KnownPart> rows(static_cast<std::size_t>(image.height()));
   std::vector<std::uint32_t> shades;
   std::vector<std::int8_t> cells(static_cast<std::size_t>(image.width()));
   const auto is_known = [](std::int8_t cell) { return cell != OccupancyGrid::kUnknown; };
-  std::size_t known = 0;
+  std::size_t known = 0, done = 0;
   for (KnownPart& row : rows) {
+    if (progress && done++ % kRowsBetween == 0) progress(static_cast<double>(done) / static_cast<double>(rows.size()));
     if (auto read = image.read_row(shades); !read) return tl::unexpected<Error>(read.error());
     std::transform(shades.begin(), shades.end(), cells.begin(), [&](std::uint32_t shade) {
       return shade == MapImage::kClear ? OccupancyGrid::kUnknown : cell_of[shade];
@@ -235,7 +238,9 @@ void place(OccupancyGrid& map, const MapImage& image, const Pose2& origin, std::
 
 }  // namespace
 
-Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) {
+Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) { return read_map(yaml_path, {}); }
+
+Result<LoadedMap> read_map(const std::filesystem::path& yaml_path, const ReadingProgress& progress) {
   if (const auto extension = lower_case(yaml_path.extension().string()); extension == ".pgm" || extension == ".png") {
     const auto beside = std::filesystem::path{yaml_path}.replace_extension(".yaml");
     return fail(yaml_path.string() + ": this is the image of a map; name the YAML file that says its scale" +
@@ -260,7 +265,7 @@ Result<LoadedMap> read_map(const std::filesystem::path& yaml_path) {
     const bool is_named = error.message.starts_with(image_path.string());
     return tl::unexpected<Error>(is_named ? error : Error{image_path.string() + ":1: " + error.message});
   };
-  const auto rows = read_rows(**image, *meaning);
+  const auto rows = read_rows(**image, *meaning, progress);
   if (!rows) return in_image(rows.error());
   if (!(*image)->note().empty()) loaded.notes.push_back((*image)->note());
   auto map = grid_of(**image, *rows, *meaning, loaded.notes);

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "docent/base/files.h"
+#include "docent/grid/map_reading.h"
 #include "docent/grid/occupancy_grid.h"
 
 namespace docent {
@@ -201,6 +204,13 @@ TEST_F(Maps, OfAHugeMapWhatIsKnownIsKept) {
   EXPECT_EQ(at(4003.5, 1001.5), 0);
   EXPECT_EQ(at(4002.5, 1001.5), -1);
   EXPECT_EQ(at(100, 100), -1);
+  std::vector<double> told;
+  ASSERT_TRUE(read_map(folder_ / "m.yaml", [&](double done) { told.push_back(done); }));
+  ASSERT_GT(told.size(), 20U) << "a person sees how far it is";
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LT(told.front(), 0.01);
+  EXPECT_GT(told.back(), 0.95);
+  EXPECT_LE(told.back(), 1.0);
 }
 
 TEST_F(Maps, HeadersThatEndInMoreThanOneWhiteSpaceShiftNothing) {

@@ -5,6 +5,7 @@
 
 #include "docent/base/files.h"
 #include "docent/museum/museum_file.h"
+#include "docent/museum/museum_loading.h"
 #include "docent/museum/museum_reader.h"
 
 namespace docent::museum {
@@ -106,7 +107,9 @@ std::size_t sensible_pairs(const Museum& museum) {
   return count;
 }
 
-Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage) {
+Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage) { return load_museum(folder, stage, {}); }
+
+Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage, const ReadingProgress& progress) {
   auto file = load_museum_file(folder);
   if (!file) return tl::unexpected<Error>(file.error());
   auto source = read_museum_file(*file, folder, stage);
@@ -119,7 +122,7 @@ Result<Museum> load_museum(const std::filesystem::path& folder, Stage stage) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(museum.map_path, code))
     return tl::unexpected<Error>(file->fault(file->root()["map"], museum.map_path.string() + " does not exist"));
-  auto map = read_map(museum.map_path);
+  auto map = read_map(museum.map_path, progress);
   if (!map) return tl::unexpected<Error>(map.error());
   museum.map = std::move(map->map);
   museum.map_notes = std::move(map->notes);

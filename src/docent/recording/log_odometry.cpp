@@ -14,6 +14,23 @@ motion_models::UnbrokenOdometryParams of_log(bool times_are_true) {
   return params;
 }
 
+/// @param share  of the way from `a` to `b`; above 1 beyond `b`
+Pose2 between(const LoggedOdometry& from, const LoggedOdometry& to, double share) {
+  const Pose2& a = from.odom_from_base;
+  const Pose2& b = to.odom_from_base;
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
+}
+
+/// Outside of all readings. @param end  the first or the last one, @param next  its neighbour
+Pose2 beyond(const LoggedOdometry& end, const LoggedOdometry& next, Time time) {
+  constexpr double kMost = 0.2;  // [s]
+  const double apart = std::abs(to_seconds(end.time - next.time));
+  if (!(apart > 0.0)) return end.odom_from_base;
+  const double gone = std::min({std::abs(to_seconds(time - end.time)), apart, kMost});
+  return between(next, end, 1.0 + gone / apart);
+}
+
 }  // namespace
 
 Time RisingStamps::follow(Time stamp) {
@@ -39,14 +56,11 @@ Pose2 odometry_at(const LaserLog& log, Time time) {
   if (readings.empty()) return {};
   const auto after = std::lower_bound(readings.begin(), readings.end(), time,
                                       [](const LoggedOdometry& reading, Time wanted) { return reading.time < wanted; });
-  if (after == readings.begin()) return after->odom_from_base;
-  if (after == readings.end()) return readings.back().odom_from_base;
+  if (after == readings.begin()) return beyond(readings.front(), readings[readings.size() > 1 ? 1 : 0], time);
+  if (after == readings.end())
+    return beyond(readings.back(), readings[readings.size() > 1 ? readings.size() - 2 : 0], time);
   const LoggedOdometry& before = *std::prev(after);
-  const double share = to_seconds(time - before.time) / to_seconds(after->time - before.time);
-  const Pose2& a = before.odom_from_base;
-  const Pose2& b = after->odom_from_base;
-  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
-          Angle::radians(a.theta.radians() + share * (b.theta - a.theta).radians())};
+  return between(before, *after, to_seconds(time - before.time) / to_seconds(after->time - before.time));
 }
 
 LogOdometry::LogOdometry(bool times_are_true) : unbroken_{of_log(times_are_true)} {}

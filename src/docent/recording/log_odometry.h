@@ -49,8 +49,8 @@ class LogOdometry {
   Time first_jump_{};
 };
 
-/// The log's odometry at that time, between its readings; before the first and after the last it stands. Without
-/// readings: zero.
+/// The log's odometry at that time, between its readings. Before the first and after the last it goes on as between the
+/// two that are next, for as long as these are apart, 0.2 s at most, and stands then. Without readings: zero.
 [[nodiscard]] Pose2 odometry_at(const LaserLog& log, Time time);
 
 }  // namespace docent::recording

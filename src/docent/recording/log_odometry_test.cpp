@@ -60,5 +60,21 @@ TEST(LogOdometry, InventedTimesTellNothingOfSpeeds) {
   EXPECT_NE(odometry.note(), "") << "zero to the last digit is none";
 }
 
+TEST(OdometryAt, GoesOnForAStepAndStandsThen) {
+  LaserLog log;
+  EXPECT_EQ(odometry_at(log, at(1.0)).x, 0.0);
+  log.odometry.push_back({at(1.0), {2.0, 0.0, {}}, 0.0, 0.0});
+  EXPECT_EQ(odometry_at(log, at(3.0)).x, 2.0) << "of one reading no motion is known";
+  log.odometry.push_back({at(1.1), {2.05, 0.0, Angle::radians(0.1)}, 0.0, 0.0});
+  EXPECT_NEAR(odometry_at(log, at(1.05)).x, 2.025, 1e-9);
+  EXPECT_NEAR(odometry_at(log, at(1.16)).x, 2.08, 1e-9) << "a scan of a torn file comes after the last odometry";
+  EXPECT_NEAR(odometry_at(log, at(1.16)).theta.radians(), 0.16, 1e-9);
+  EXPECT_NEAR(odometry_at(log, at(5.0)).x, 2.1, 1e-9);
+  EXPECT_NEAR(odometry_at(log, at(0.96)).x, 1.98, 1e-9);
+  EXPECT_NEAR(odometry_at(log, at(-5.0)).x, 1.95, 1e-9);
+  log.odometry.push_back({at(4.1), {5.05, 0.0, Angle::radians(0.1)}, 0.0, 0.0});
+  EXPECT_NEAR(odometry_at(log, at(9.0)).x, 5.25, 1e-9) << "of readings that are far apart 0.2 s at most";
+}
+
 }  // namespace
 }  // namespace docent::recording::log_odometry_test

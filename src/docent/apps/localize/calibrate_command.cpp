@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "docent/apps/localize/log_reference.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/log_defaults.h"
 #include "docent/base/files.h"
 #include "docent/mapping/mount_calibration/mount_calibrator.h"
 #include "docent/recording/laser_log.h"
@@ -24,6 +24,7 @@ struct CalibrateOptions {
   std::string log;
   std::string robot;
   recording::WantedTopics topics;
+  std::string times = "stamps";
   std::string report;
   double from = 0.0;
   double to = 1.0;
@@ -154,7 +155,8 @@ void print_block(const mapping::MountCalibrator& calibrator, const robot::RobotB
 void calibrate(const CalibrateOptions& options) {
   if (!(options.from >= 0.0 && options.from < options.to && options.to <= 1.0))
     throw CommandFailed{"0 <= --from < --to <= 1 must hold", 2};
-  const recording::LaserLog log = value_or_fail(recording::read_laser_log(options.log, {.topics = options.topics}));
+  const recording::LaserLogOptions reading{.topics = options.topics, .times = times_of(options.times)};
+  const recording::LaserLog log = value_or_fail(recording::read_laser_log(options.log, reading));
   for (const std::string& note : log.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::vector<mapping::NominalScanner> as_recorded = scanners_of(log);
   std::vector<mapping::NominalScanner> scanners = as_recorded;
@@ -185,6 +187,7 @@ void add_calibrate_command(CLI::App& app) {
       ->check(CLI::ExistingPath)
       ->required();
   add_topic_options(*command, options->topics, false);
+  add_times_option(*command, options->times);
   command
       ->add_option("--robot", options->robot, "robot.yaml whose scanners these are; without: as the recording has them")
       ->check(CLI::ExistingFile);

@@ -8,6 +8,7 @@
 
 #include "docent/apps/localize/log_lies.h"
 #include "docent/apps/shared/command.h"
+#include "docent/apps/shared/log_defaults.h"
 
 namespace docent::apps::localize_command {
 namespace {
@@ -29,27 +30,13 @@ void filter_scans(ReferencedLog& referenced, const std::function<bool(std::size_
 
 }  // namespace
 
-void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot) {
-  command.add_option("--scan", topics.scans, "topic of scans in a recording of ROS, e.g. /scan; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("TOPIC");
-  command.add_option("--odom", topics.odometry, "topic of odometry in it, e.g. /odom")->type_name("TOPIC");
-  if (has_robot)
-    command.add_option("--robot", topics.robot, "name space of one of the robots in it, e.g. /robot1")
-        ->type_name("NAME");
-}
-
 void add_log_options(CLI::App& command, LogChoice& choice) {
   command
       .add_option("--log", choice.log,
                   "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database, or bag of ROS 1")
       ->required();
   add_topic_options(command, choice.topics);
-  command
-      .add_option("--times", choice.times,
-                  "of a recording of ROS: stamps, or index: the order of its messages, where its clocks are of no use")
-      ->check(CLI::IsMember({"stamps", "index"}))
-      ->capture_default_str();
+  add_times_option(command, choice.times);
   command.add_option("--reference", choice.reference,
                      "where the robot truly was: a file of \"time x y theta\" [s, m, rad], or logged: the log is a "
                      "corrected one and holds the poses itself");
@@ -59,8 +46,7 @@ void add_log_options(CLI::App& command, LogChoice& choice) {
 }
 
 ReferencedLog load_referenced_log(const LogChoice& choice, const evaluation::ReferenceGaps& gaps) {
-  const auto times = choice.times == "index" ? recording::LogTimes::index : recording::LogTimes::stamps;
-  const recording::LaserLogOptions options{.topics = choice.topics, .times = times};
+  const recording::LaserLogOptions options{.topics = choice.topics, .times = times_of(choice.times)};
   ReferencedLog referenced{value_or_fail(recording::read_laser_log(choice.log, options)), {}};
   const recording::LaserLog& log = referenced.log;
   if (!log.sources.empty()) std::fprintf(stderr, "note: %s is read as %s\n", choice.log.c_str(), log.sources.c_str());

@@ -21,9 +21,6 @@ struct LogChoice {
   recording::WantedTopics topics;  ///< of a recording of ROS
   std::string times = "stamps";    ///< likewise: stamps, index
 };
-/// The options that choose among the topics of a recording of ROS; without `has_robot` that of a robot is not among
-/// them.
-void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot = true);
 void add_log_options(CLI::App& command, LogChoice& choice);
 
 /// A log, and where its scans were truly taken if anybody says so.

@@ -15,6 +15,7 @@
 #include "docent/interaction/speech/repertoire.h"
 #include "docent/modules/drive/plan_module.h"
 #include "docent/museum/museum.h"
+#include "docent/museum/museum_loading.h"
 #include "docent/robot/body_notes.h"
 #include "docent/simulator/world/world.h"
 #include "docent/task_control/golog/golog_program.h"
@@ -92,7 +93,8 @@ void check(const Deployment& deployment, bool lists_recordings) {
   for (const std::string& note : robot::body_notes(config.body())) std::fprintf(stderr, "note: %s\n", note.c_str());
   std::vector<Error> faults = museum::check_museum(folder, value_or_fail(modules::checked_robot_of_plan(config), 2));
   if (faults.empty()) {
-    const museum::Museum museum = value_or_fail(museum::load_museum(folder));
+    const museum::Museum museum =
+        value_or_fail(museum::load_museum(folder, museum::Stage::complete, reading_of(folder)));
     if (museum.simulation_path) check_simulation(museum, faults);
     check_sounds(museum, faults);
     check_program(museum, faults);

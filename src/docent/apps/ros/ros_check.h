@@ -8,6 +8,7 @@
 #include "docent/robot/robot_config.h"
 #include "docent/transport/dds_reach.h"
 #include "docent/transport/discovery/discovery.h"
+#include "docent/transport/discovery/ros_nodes.h"
 
 namespace docent::apps::ros {
 
@@ -50,7 +51,8 @@ struct Check {
   std::vector<transport::NetworkInterface> interfaces;
   std::vector<transport::RosLine> lines;  ///< for ROS 2's side
   transport::Discovered heard;
-  double seconds = 0.0;  ///< that it listened
+  std::vector<transport::RosNode> nodes;  ///< that programs say they are
+  double seconds = 0.0;                   ///< that it listened
   std::vector<Finding> findings;
   std::vector<std::string> faults;  ///< beside those of the findings: of commands, of Docent's own topics
   std::vector<std::string> notes;   ///< what may be meant so

@@ -122,9 +122,11 @@ TEST_F(ABase, AReportHasAllOfIt) {
   check_.reach = {3, "lo", ""};
   check_.lines = transport::ros_lines(check_.reach, "/share");
   check_.findings = {find({})};
+  check_.nodes = {{"base", "/turtlebot4/motion_control", 3, 12}};
   const std::string text = text_of(check_, kHealth);
   for (const char* part :
        {"domain 3", "eth0 10.0.0.7: not heard (--interface eth0)", "export ROS_DOMAIN_ID=3", "1 Fast DDS",
+        "nodes of ROS 2: /turtlebot4/motion_control\n",
         "/scan (sensor_msgs/msg/LaserScan), from 1 Fast DDS: reliable, volatile", "MISSING /scan_front: avoid",
         "without it: the robot stands", "Not all that is needed arrives."})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
@@ -134,6 +136,8 @@ TEST_F(ABase, AReportHasAllOfIt) {
   EXPECT_EQ(json["needs"][0]["topic"], "/scan_front");
   EXPECT_FALSE(json["needs"][0]["arrives"]);
   EXPECT_EQ(json["participants"][0]["user_data"], "enclave=/;");
+  EXPECT_EQ(json["nodes"][0]["name"], "/turtlebot4/motion_control");
+  EXPECT_EQ(json["nodes"][0]["writers"], 12);
 }
 
 }  // namespace

@@ -56,8 +56,10 @@ void check(const Options& options) {
       value_or_fail(transport::DdsBus::create(deployment.bus_options(deployment.domain, "ros_check", config.body())));
   const auto needs = needs_of(config.body(), avoid.needs_sonar);
   std::map<std::string, Arrivals> arrivals;
+  transport::RosNodeListener nodes{bus->participant()};
   listen(*bus, needs, options.seconds, arrivals);
   result.heard = transport::discovered(bus->participant());
+  result.nodes = nodes.heard();
   const Wire wire{[&](const auto& topic) { return bus->wire_name(topic); },
                   [&](const auto& topic) { return bus->wire_type(topic); }};
   for (const Need& need : needs)

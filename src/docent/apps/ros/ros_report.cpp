@@ -60,6 +60,20 @@ bool is_inner(const std::string& topic, const TopicLine& line) {
   return topic.find("/docent/") != std::string::npos && only_docent(line.writers) && only_docent(line.readers);
 }
 
+/// Names of the nodes of others, one line; empty: there are none.
+std::string nodes_of(const Check& check, const std::string& health) {
+  std::vector<std::string> others;
+  std::size_t own = 0;
+  for (const auto& one : check.nodes) {
+    if (is_docent(check.heard, one.participant, health))
+      ++own;
+    else
+      others.push_back(one.name);
+  }
+  if (own > 0) others.push_back(std::to_string(own) + " of Docent");
+  return others.empty() ? "" : "  nodes of ROS 2: " + joined(others) + "\n";
+}
+
 const char* word_of(const Finding& finding) {
   if (finding.arrives()) return finding.faults.empty() ? "ok" : "faulty";
   return finding.need.is_needed ? "MISSING" : "absent";
@@ -88,6 +102,7 @@ std::string text_of(const Check& check, const std::string& health) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.1f", check.seconds);
   text += std::string{"Heard within "} + seconds + " s: " + (programs.empty() ? "nobody" : counted(programs)) + ".\n";
+  text += nodes_of(check, health);
   int inner = 0;
   for (const auto& [topic, line] : topics_of(check, health)) {
     if (is_inner(topic.first, line)) {
@@ -119,7 +134,7 @@ std::string text_of(const Check& check, const std::string& health) {
 std::string json_of(const Check& check, const std::string& health) {
   using nlohmann::json;
   json interfaces = json::array(), lines = json::array(), participants = json::array(), endpoints = json::array(),
-       needs = json::array();
+       needs = json::array(), nodes = json::array();
   for (const auto& one : check.interfaces) interfaces.push_back({{"name", one.name}, {"address", one.address}});
   for (const auto& one : check.lines) lines.push_back({{"implementation", one.implementation}, {"line", one.line}});
   for (const auto& one : check.heard.participants)
@@ -127,6 +142,9 @@ std::string json_of(const Check& check, const std::string& health) {
                             {"vendor", one.vendor},
                             {"user_data", one.user_data},
                             {"is_docent", is_docent(check.heard, one.id, health)}});
+  for (const auto& one : check.nodes)
+    nodes.push_back(
+        {{"participant", one.participant}, {"name", one.name}, {"readers", one.readers}, {"writers", one.writers}});
   for (const auto& one : check.heard.endpoints)
     endpoints.push_back({{"participant", one.participant},
                          {"topic", transport::ros_topic(one.topic)},
@@ -152,6 +170,7 @@ std::string json_of(const Check& check, const std::string& health) {
                  {"ros", lines},
                  {"seconds", check.seconds},
                  {"participants", participants},
+                 {"nodes", nodes},
                  {"endpoints", endpoints},
                  {"needs", needs},
                  {"faults", check.faults},

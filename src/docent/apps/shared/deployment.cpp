@@ -17,6 +17,7 @@
 #include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/museum/blank_museum.h"
+#include "docent/museum/museum_loading.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent::apps {
@@ -78,9 +79,9 @@ std::vector<std::string> Deployment::arguments() const {
   return all;
 }
 
-Result<museum::Museum> Deployment::load() const {
+Result<museum::Museum> Deployment::load(const ReadingProgress& progress) const {
   const auto stage = is_setup || is_exploring() ? museum::Stage::being_set_up : museum::Stage::complete;
-  auto loaded = museum::load_museum(museum, stage);
+  auto loaded = museum::load_museum(museum, stage, progress);
   if (!loaded || !is_exploring()) return loaded;
   return museum::without_map(*loaded, parse_pose("--explore", explore));
 }

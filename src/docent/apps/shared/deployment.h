@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "docent/base/result.h"
+#include "docent/grid/map_reading.h"
 #include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/museum.h"
 #include "docent/robot/robot_config.h"
@@ -40,8 +41,8 @@ struct Deployment {
   void add_bus_options(CLI::App& command);
   /// As arguments of another process.
   [[nodiscard]] std::vector<std::string> arguments() const;
-  /// Without its map where the robot explores.
-  [[nodiscard]] Result<museum::Museum> load() const;
+  /// Without its map where the robot explores. `progress` hears how far the reading of the map is.
+  [[nodiscard]] Result<museum::Museum> load(const ReadingProgress& progress = {}) const;
   [[nodiscard]] bool is_exploring() const { return !explore.empty(); }
   [[nodiscard]] Result<museum::SetupWork> work() const;
   /// @param further  sections beside `body` and those of the modules

@@ -4,11 +4,16 @@
 #include <spdlog/pattern_formatter.h>
 
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 namespace docent::apps {
 
 namespace {
+
+constexpr double kTerminal = 0.5;  // [s] between changes of the line
+constexpr double kLeast = 2.0;     // [s] between lines through a pipe
+constexpr double kMost = 60.0;     // [s] without a line through a pipe
 
 constexpr std::string_view kPattern = "%Y-%m-%d %H:%M:%S.%e %l %n: %v";
 
@@ -47,6 +52,19 @@ bool is_log_line(std::string_view line) {
 void log_to_stderr(LogLevel level, const std::string& module, const std::string& text) {
   const std::string line = log_line(level, module, text) + "\n";
   std::fputs(line.c_str(), stderr);
+}
+
+bool Progress::is_due(double done, double wall_s) {
+  const double since = wall_s - last_s_;
+  const bool is_due = is_terminal_ ? since >= kTerminal : since >= kMost || (since >= kLeast && done >= next_done_);
+  if (!is_due) return false;
+  last_s_ = wall_s;
+  next_done_ = (std::floor(done * 10.0) + 1.0) / 10.0;
+  return true;
+}
+
+std::string Progress::shown(const std::string& line) const {
+  return is_terminal_ ? "\r" + line + "\033[K" : line + "\n";
 }
 
 }  // namespace docent::apps

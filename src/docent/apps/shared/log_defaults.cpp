@@ -1,10 +1,33 @@
 #include "docent/apps/shared/log_defaults.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 namespace docent::apps {
+
+void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot) {
+  command.add_option("--scan", topics.scans, "topic of scans in a recording of ROS, e.g. /scan; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("TOPIC");
+  command.add_option("--odom", topics.odometry, "topic of odometry in it, e.g. /odom")->type_name("TOPIC");
+  if (has_robot)
+    command.add_option("--robot", topics.robot, "name space of one of the robots in it, e.g. /robot1")
+        ->type_name("NAME");
+}
+
+void add_times_option(CLI::App& command, std::string& times) {
+  command
+      .add_option("--times", times,
+                  "of a recording of ROS: stamps, or index: the order of its messages, where its clocks are of no use")
+      ->check(CLI::IsMember({"stamps", "index"}))
+      ->capture_default_str();
+}
+
+recording::LogTimes times_of(const std::string& times) {
+  return times == "index" ? recording::LogTimes::index : recording::LogTimes::stamps;
+}
 
 double reach_of_log(double max_range) {
   // Far readings tell one corridor from another; beyond some length the map's headings are too coarse for them.

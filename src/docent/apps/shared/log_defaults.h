@@ -1,9 +1,24 @@
 #pragma once
 
+#include <string>
+
 #include "docent/grid/occupancy_grid.h"
+#include "docent/recording/laser_log.h"
 #include "docent/robot/robot_config.h"
 
+namespace CLI {
+class App;
+}
+
 namespace docent::apps {
+
+/// The options that choose among the topics of a recording of ROS; without `has_robot` that of a robot is not among
+/// them.
+void add_topic_options(CLI::App& command, recording::WantedTopics& topics, bool has_robot = true);
+/// Where the times of a recording of ROS come from: --times stamps, or index.
+void add_times_option(CLI::App& command, std::string& times);
+/// What that option says.
+[[nodiscard]] recording::LogTimes times_of(const std::string& times);
 
 /// Of a log's readings, that end on people who walk: a crowd. Busy museums have 0.03 to 0.05; logs of ordinary
 /// buildings 0 to 0.028 (Wean hall by day), and these are localized well without.

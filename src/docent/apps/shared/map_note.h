@@ -3,11 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "docent/grid/map_reading.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/museum/museum.h"
 
 namespace docent::apps {
 
+/// Says on standard error how far the reading of that map is, where it takes more than some seconds.
+[[nodiscard]] ReadingProgress reading_of(const std::string& path);
 /// Says on standard error what the cells of the map in file `path` were taken for and what is odd about the file, and
 /// warns where that looks wrong.
 void say_classes(const std::string& path, const OccupancyGrid& map, const std::vector<std::string>& notes);

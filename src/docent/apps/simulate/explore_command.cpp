@@ -17,8 +17,9 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/log.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/apps/shared/temporary_folder.h"
-#include "docent/apps/simulate/progress.h"
 #include "docent/apps/simulate/simulation_run.h"
 #include "docent/base/files.h"
 #include "docent/grid/occupancy_grid.h"
@@ -94,7 +95,8 @@ docent_msgs::Exploration drive(SimulationRun& run, const ExploreOptions& options
 
 void explore(ExploreOptions& options) {
   if (!(options.most_hours > 0.0 && options.most_hours <= 100.0)) throw CommandFailed{"--hours must be in (0, 100]", 2};
-  const museum::Museum museum = value_or_fail(museum::load_museum(options.run.museum));
+  const museum::Museum museum =
+      options.quiet ? value_or_fail(museum::load_museum(options.run.museum)) : load_museum_and_say(options.run.museum);
   options.run.explore = options.start.empty() ? museum.home : parse_pose("--start", options.start);
   const std::filesystem::path out{options.out};
   std::error_code code;
@@ -123,6 +125,7 @@ void explore(ExploreOptions& options) {
   std::printf("%s\n", line_of(state, minutes).c_str());
   std::printf("%s: %d x %d cells; %zu places not reached or not seen into\n", (out / "map.yaml").c_str(),
               map.frame.columns, map.frame.rows, state.unreached_x.size());
+  if (!options.quiet) say_classes((out / "map.yaml").string(), map, {});
   if (state.state == "stranded")
     throw CommandFailed{"the map is made, but the exploration is not done: " + state.warning};
   if (!state.warning.empty()) std::fprintf(stderr, "warning: do not trust this map: %s\n", state.warning.c_str());

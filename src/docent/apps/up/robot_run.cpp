@@ -94,7 +94,7 @@ Result<docent_msgs::Limits> limits_of(const RobotRun& options, const museum::Mus
 
 /// Everything that can be known to be wrong before a process is started.
 docent_msgs::Limits check(const RobotRun& options) {
-  const museum::Museum museum = value_or_fail(options.deployment.load());
+  const museum::Museum museum = value_or_fail(options.deployment.load(reading_of(options.deployment.museum)));
   const robot::RobotConfig config = value_or_fail(options.deployment.load_config());
   std::vector<std::string> sections;
   for (const auto& entry : modules::all_modules()) sections.emplace_back(entry.name);

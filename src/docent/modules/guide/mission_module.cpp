@@ -119,10 +119,11 @@ task_control::VisitorRequest request_of(const docent_msgs::Request& message) {
           message.language};
 }
 
-/// Staff wants the robot to go there; which way it looks then is not asked for.
+/// Staff wants the robot to go there, and to look that way then.
 task_control::VisitorRequest request_of(const geometry_msgs::PoseStamped& goal, Time now, Rng& rng) {
-  char place[64];
-  std::snprintf(place, sizeof place, "%.2f,%.2f", goal.pose.position.x, goal.pose.position.y);
+  const Pose2 map_from_base = from_message(goal.pose);
+  char place[96];
+  std::snprintf(place, sizeof place, "%.2f,%.2f,%.2f", map_from_base.x, map_from_base.y, map_from_base.theta.radians());
   return {make_uuid_v7(now, rng), now, RequestSource::staff, topics::kGoalPose.name, RequestKind::point, place, -1, ""};
 }
 

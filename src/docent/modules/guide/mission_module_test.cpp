@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 
 #include "docent/interaction/speech/sentences.h"
+#include "docent/messages/conversions.h"
 #include "docent/modules/guide/tour_rehearsal_for_test.h"
 #include "docent/task_control/mission/mission.h"
 #include "docent/vocabulary/reason.h"
@@ -140,8 +142,18 @@ TEST(Tour, AGoalPoseIsAWishOfTheStaffWhereItIsAllowed) {
   rehearsal.run_for(60);
   ASSERT_EQ(wishes().size(), 1U);
   EXPECT_EQ(wishes()[0].request.source, "staff");
-  EXPECT_EQ(wishes()[0].request.target, "2.00,1.50");
+  EXPECT_EQ(wishes()[0].request.target, "2.00,1.50,0.00") << "an unset quaternion of ROS 2 has w 1";
   EXPECT_EQ(wishes()[0].state, "fulfilled");
+  there.pose.orientation = to_quaternion(Angle::degrees(-90.0));
+  goal.publish(there);
+  rehearsal.run_for(60);
+  there.pose.orientation = {0.0, 0.0, 0.0, 0.0};
+  goal.publish(there);
+  rehearsal.run_for(60);
+  std::map<std::string, std::string> states;
+  for (const auto& wish : wishes()) states[wish.request.target] = wish.state;
+  EXPECT_EQ(states["2.00,1.50,-1.57"], "fulfilled") << "which way it looks then is asked for";
+  EXPECT_EQ(states.size(), 2U) << "zeros are no orientation: refused";
 }
 
 TEST(Tour, AnUnreachableExhibitIsTriedAgainThenFails) {

@@ -4,51 +4,33 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <queue>
 
+#include "docent/recording/mcap/chunk.h"
 #include "docent/recording/mcap/format.h"
-#include "docent/recording/mcap/lz4.h"
 
 namespace docent::recording {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 using mcap::ByteReader;
+using mcap::crc_of;
 using mcap::Kind;
+using mcap::Record;
+using mcap::record_at;
 
-constexpr std::uint64_t kMaxChunk = std::uint64_t{256} << 20U;
 /// Chunks that overlap in time are held together; no sound recording needs so much.
 constexpr std::uint64_t kMaxHeld = std::uint64_t{1} << 30U;
 constexpr std::size_t kMostDamage = 1000;  ///< entries in the list
 constexpr std::uint64_t kMaxTime = std::numeric_limits<std::int64_t>::max();
 
-std::uint32_t crc_of(Bytes bytes) { return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size())); }
-
 Time time_of(std::uint64_t nanoseconds) { return {static_cast<std::int64_t>(std::min(nanoseconds, kMaxTime))}; }
-
-/// One record and what follows it. `kind` 0: there is none that is whole.
-struct Record {
-  std::uint8_t kind = 0;
-  Bytes content;
-  std::size_t size = 0;  ///< with its head
-  [[nodiscard]] bool is(Kind other) const { return kind == static_cast<std::uint8_t>(other); }
-};
-
-Record record_at(Bytes bytes, std::size_t offset) {
-  if (offset > bytes.size() || bytes.size() - offset < mcap::kRecordHead) return {};
-  std::uint64_t length = 0;
-  std::memcpy(&length, bytes.data() + offset + 1, sizeof length);
-  if (length > bytes.size() - offset - mcap::kRecordHead) return {};
-  const auto size = static_cast<std::size_t>(length);
-  return {bytes[offset], bytes.subspan(offset + mcap::kRecordHead, size), mcap::kRecordHead + size};
-}
 
 /// A file in memory: mapped, or owned.
 class Source {
@@ -93,6 +75,7 @@ struct McapReader::State {
   std::optional<std::uint64_t> message_count;
   std::map<std::uint16_t, std::uint64_t> counts;
   std::vector<std::string> damage;
+  std::size_t searched_to = 0;  ///< the chunks that begin before this byte were searched for channels
 
   [[nodiscard]] Bytes bytes() const { return source->bytes(); }
   [[nodiscard]] Error fault(std::size_t offset, const std::string& what) const {
@@ -104,6 +87,7 @@ struct McapReader::State {
   [[nodiscard]] bool read_summary();
   void walk();
   [[nodiscard]] Result<std::vector<std::uint8_t>> unpack(const Piece& piece) const;
+  [[nodiscard]] bool knows_channel(std::uint16_t id, std::size_t at);
 };
 
 void McapReader::State::learn_schema(Bytes content) {
@@ -217,37 +201,33 @@ void McapReader::State::walk() {
 
 Result<std::vector<std::uint8_t>> McapReader::State::unpack(const Piece& piece) const {
   const Record record = record_at(bytes(), piece.offset);
-  const auto broken = [&](const std::string& what) { return tl::unexpected<Error>(fault(piece.offset, what)); };
-  if (!record.is(Kind::chunk)) return broken("no chunk where the index has one");
-  ByteReader reader{record.content};
-  (void)reader.bytes(8 + 8);
-  const auto size = reader.number<std::uint64_t>();
-  const auto crc = reader.number<std::uint32_t>();
-  const std::string compression = reader.text();
-  const Bytes packed = reader.bytes(reader.number<std::uint64_t>());
-  if (!reader.good()) return broken("a broken chunk");
-  if (size > kMaxChunk) return broken("a chunk of more than 256 MiB");
-  std::vector<std::uint8_t> records;
-  if (compression.empty()) {
-    if (packed.size() != size) return broken("a chunk with a wrong size");
-    records.assign(packed.begin(), packed.end());
-  } else if (compression == "zstd") {
-    // The frame says its size too; believing only both keeps a lie from taking memory.
-    const unsigned long long declared = ZSTD_getFrameContentSize(packed.data(), packed.size());
-    if (declared != ZSTD_CONTENTSIZE_UNKNOWN && declared != size) return broken("a chunk with a wrong size");
-    if (size / 20000 > packed.size()) return broken("a chunk that cannot be so large");
-    records.resize(static_cast<std::size_t>(size));
-    const std::size_t unpacked = ZSTD_decompress(records.data(), records.size(), packed.data(), packed.size());
-    if (ZSTD_isError(unpacked) != 0 || unpacked != size) return broken("a chunk that cannot be unpacked");
-  } else if (compression == "lz4") {
-    auto unpacked = mcap::unpack_lz4(packed, static_cast<std::size_t>(size));
-    if (!unpacked) return broken("a chunk that cannot be unpacked");
-    records = std::move(*unpacked);
-  } else {
-    return broken("a chunk with unknown compression '" + compression.substr(0, 20) + "'");
-  }
-  if (crc != 0 && crc != crc_of(records)) return broken("a chunk with a wrong checksum");
+  if (!record.is(Kind::chunk)) return tl::unexpected<Error>(fault(piece.offset, "no chunk where the index has one"));
+  auto records = mcap::unpack_chunk(record.content);
+  if (!records) return tl::unexpected<Error>(fault(piece.offset, records.error().message));
   return records;
+}
+
+/// Whether a channel is known to a message of the piece at byte `at`. Where no summary repeats the channels, each is
+/// told once, in the piece that was written first; that need not be the earliest, by which the pieces are read.
+bool McapReader::State::knows_channel(std::uint16_t id, std::size_t at) {
+  if (channels.contains(id)) return true;
+  std::vector<Piece> before;
+  std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(before),
+               [&](const Piece& piece) { return piece.is_chunk && piece.offset >= searched_to && piece.offset < at; });
+  std::sort(before.begin(), before.end(), [](const Piece& a, const Piece& b) { return a.offset < b.offset; });
+  for (const Piece& piece : before) {
+    searched_to = piece.offset + 1;
+    const auto records = unpack(piece);  // a broken one is said when it is read
+    for (std::size_t next = 0; records && next < records->size();) {
+      const Record record = record_at(*records, next);
+      if (record.kind == 0) break;
+      if (record.is(Kind::schema)) learn_schema(record.content);
+      if (record.is(Kind::channel)) learn_channel(record.content);
+      next += record.size;
+    }
+    if (channels.contains(id)) return true;
+  }
+  return false;
 }
 
 McapReader::McapReader(std::unique_ptr<State> state) : state_{std::move(state)} {}
@@ -343,7 +323,7 @@ class McapReader::Reading {
     }
   };
 
-  bool wait(Bytes content, const Chunk& chunk);
+  bool wait(Bytes content, const Chunk& chunk, std::size_t offset);
   bool hand_over_before(std::uint64_t time);
   Result<void> damaged(Error error);
   Result<void> read_chunk(const Piece& piece);
@@ -357,8 +337,8 @@ class McapReader::Reading {
   std::uint64_t handed_over_ = 0;  ///< time of the latest message that was
 };
 
-/// False for a message that cannot be right.
-bool McapReader::Reading::wait(Bytes content, const Chunk& chunk) {
+/// False for a message that cannot be right. @param offset  of its piece in the file
+bool McapReader::Reading::wait(Bytes content, const Chunk& chunk, std::size_t offset) {
   ByteReader reader{content};
   Waiting message{};
   message.channel = reader.number<std::uint16_t>();
@@ -370,9 +350,9 @@ bool McapReader::Reading::wait(Bytes content, const Chunk& chunk) {
   message.chunk = chunk;
   // A chunk that holds earlier messages than it says would break the order.
   if (!reader.good() || message.time > kMaxTime || message.time < handed_over_) return false;
-  const auto channel = state_.channels.find(message.channel);
-  if (channel == state_.channels.end()) return false;
-  if (!selection_.topics.empty() && !selection_.topics.contains(channel->second.topic)) return true;
+  if (!state_.knows_channel(message.channel, offset)) return false;
+  const std::string& topic = state_.channels.at(message.channel).topic;
+  if (!selection_.topics.empty() && !selection_.topics.contains(topic)) return true;
   if (selection_.from && time_of(message.time) < *selection_.from) return true;
   if (selection_.to && time_of(message.time) > *selection_.to) return true;
   waiting_.push(std::move(message));
@@ -417,7 +397,7 @@ Result<void> McapReader::Reading::read_chunk(const Piece& piece) {
     bool good = record.kind != 0;
     if (record.is(Kind::schema)) state_.learn_schema(record.content);
     if (record.is(Kind::channel)) state_.learn_channel(record.content);
-    if (record.is(Kind::message)) good = wait(record.content, chunk);
+    if (record.is(Kind::message)) good = wait(record.content, chunk, piece.offset);
     if (!good) {
       if (auto result = damaged(state_.fault(piece.offset, "a broken record in the chunk")); !result) return result;
       if (record.kind == 0) break;
@@ -432,7 +412,7 @@ Result<void> McapReader::Reading::run() {
     if (!hand_over_before(piece.first_time)) return {};
     if (piece.is_chunk) {
       if (auto result = read_chunk(piece); !result) return result;
-    } else if (!wait(record_at(state_.bytes(), piece.offset).content, nullptr)) {
+    } else if (!wait(record_at(state_.bytes(), piece.offset).content, nullptr, piece.offset)) {
       if (auto result = damaged(state_.fault(piece.offset, "a broken message")); !result) return result;
     }
   }

@@ -12,6 +12,7 @@
 
 #include "docent/base/files.h"
 #include "docent/base/random.h"
+#include "docent/recording/mcap/format.h"
 #include "docent/recording/mcap/reader.h"
 #include "docent/recording/mcap/recovery.h"
 
@@ -279,6 +280,69 @@ TEST_F(Mcap, ReadsWhatIsLeftOfAFileCutAnywhere) {
     most = std::max(most, read.size());
   }
   EXPECT_EQ(most, 200U);
+}
+
+/// A chunk with these messages of channel 1, which it tells where `tells_channel`.
+void append_chunk(std::vector<std::uint8_t>& file, std::vector<std::uint64_t> times, bool tells_channel) {
+  using mcap::ByteWriter;
+  using mcap::Kind;
+  std::vector<std::uint8_t> records;
+  ByteWriter inner{records};
+  const McapChannel channel = channel_named("/T0");
+  if (tells_channel) {
+    const auto schema = inner.begin(Kind::schema);
+    inner.number(std::uint16_t{1});
+    inner.text(channel.type);
+    inner.text(channel.schema_encoding);
+    inner.text(channel.schema);
+    inner.end(schema);
+    const auto told = inner.begin(Kind::channel);
+    inner.number(std::uint16_t{1});
+    inner.number(std::uint16_t{1});
+    inner.text(channel.topic);
+    inner.text(channel.encoding);
+    inner.texts(channel.metadata);
+    inner.end(told);
+  }
+  for (const std::uint64_t time : times) {
+    const auto message = inner.begin(Kind::message);
+    inner.number(std::uint16_t{1});
+    inner.number(std::uint32_t{0});
+    inner.number(time);
+    inner.number(time + 5);
+    inner.number(static_cast<std::uint8_t>(time));
+    inner.end(message);
+  }
+  ByteWriter writer{file};
+  const auto chunk = writer.begin(Kind::chunk);
+  writer.number(times.front());
+  writer.number(times.back());
+  writer.number(static_cast<std::uint64_t>(records.size()));
+  writer.number(std::uint32_t{0});
+  writer.text("");
+  writer.number(static_cast<std::uint64_t>(records.size()));
+  writer.raw(records.data(), records.size());
+  writer.end(chunk);
+}
+
+TEST_F(Mcap, ChunksInAnotherOrderThanTheirTimesTellTheirChannelsOnce) {
+  std::vector<std::uint8_t> file{mcap::kMagic.begin(), mcap::kMagic.end()};
+  mcap::ByteWriter writer{file};
+  const auto header = writer.begin(mcap::Kind::header);
+  writer.text("ros2");
+  writer.text("merged");
+  writer.end(header);
+  append_chunk(file, {70, 80}, true);
+  append_chunk(file, {10, 90}, false);  // overlaps the first
+  append_chunk(file, {20, 30}, false);
+  auto reader = McapReader::from_bytes(file, "merged");
+  ASSERT_TRUE(reader) << reader.error().message;
+  for (int again = 0; again < 2; ++again) {
+    std::vector<std::int64_t> times;
+    for (const Written& message : read_all(*reader)) times.push_back(message.time);
+    EXPECT_EQ(times, (std::vector<std::int64_t>{10, 20, 30, 70, 80, 90}));
+  }
+  EXPECT_TRUE(reader->damage().empty());
 }
 
 TEST_F(Mcap, DamageIsNamedOrLeftOut) {

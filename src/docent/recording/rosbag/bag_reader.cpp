@@ -52,6 +52,7 @@ Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector
     const std::string type = converted.type;
     return handler({channel.topic, type, message.log_time, converted.data});
   });
+  if (!reader->is_complete()) notes.push_back(path.string() + ": ends early; what came before is used");
   for (const auto& [topic, encoding] : foreign)
     notes.push_back("messages of " + topic + " are encoded as " + encoding + ", which is not read here: left out");
   if (const auto& damage = reader->damage(); !damage.empty())

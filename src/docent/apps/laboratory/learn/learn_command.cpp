@@ -25,6 +25,8 @@ struct Options {
   std::string map;
   std::string museum;
   std::vector<std::string> logs;
+  recording::WantedTopics topics;
+  std::string times = "stamps";
   std::string sensor = "laser";
   std::string expected = "cell";
   std::string wall_depth = "auto";
@@ -64,9 +66,11 @@ std::vector<double> wall_depths(const Options& options) {
 
 std::vector<recording::LaserLog> read_logs(const Options& options) {
   const bool sonar = options.sensor == "sonar";
+  const recording::LaserLogOptions reading{
+      .with_sonars = sonar, .topics = options.topics, .times = times_of(options.times)};
   std::vector<recording::LaserLog> logs;
   for (const std::string& name : options.logs) {
-    logs.push_back(value_or_fail(recording::read_laser_log(name, {.with_sonars = sonar})));
+    logs.push_back(value_or_fail(recording::read_laser_log(name, reading)));
     for (const std::string& note : logs.back().notes) std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
     if (sonar && logs.back().pings.empty()) throw CommandFailed{name + ": holds no readings of sonars with a place"};
     if (sonar && logs.back().sonar_max_range != logs.front().sonar_max_range)
@@ -145,6 +149,8 @@ void add_learn_command(CLI::App& app) {
       ->add_option("--log", options->logs,
                    "CARMEN text log (plain or .gz), MCAP recording, rosbag2 folder or database; may be repeated")
       ->required();
+  add_topic_options(*command, options->topics);
+  add_times_option(*command, options->times);
   command->add_option("--sensor", options->sensor, "laser, or sonar (labelled by the laser)")
       ->check(CLI::IsMember({"laser", "sonar"}))
       ->capture_default_str();
