@@ -18,7 +18,7 @@ from evaluation.tables import Verdict, print_table
 
 MUSEUMS = ["bonn", "smithsonian", "collection"]
 CROWDS = ["busy", "packed"]
-HEEDLESS = 0.0  # share of people who do not evade; more is untried. Where everybody evades, a robot that is blind to people touches nobody either
+HEEDLESS = 0.1  # share of people who do not evade. Where everybody evades, a robot that is blind to people touches nobody either
 KM_AN_HOUR = 0.25
 PASSES_AN_HOUR = 30
 RECORDINGS = {"eth": 0.60, "students01": 0.40}  # share of the tracks that the museum must keep

@@ -141,6 +141,30 @@ void join_bodies(BodyFit& fit, std::span<const Point2> points, Point2 sensor, st
   fit.bodies = {{middle + kBehind * unit(direction(sensor, middle)), kRadius, static_cast<int>(points.size())}};
 }
 
+/// Legs in mid-stride, or with somebody seen between them, are two sightings nearer to each other than people stand.
+void join_near(std::vector<PersonSighting>& people) {
+  constexpr double kOne = 0.32;  // [m] less than the 0.38 m that people keep: a middle errs
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    for (std::size_t j = i + 1; j < people.size();) {
+      PersonSighting& one = people[i];
+      const PersonSighting& other = people[j];
+      if (distance(one.position, other.position) >= kOne) {
+        ++j;
+        continue;
+      }
+      const double share = static_cast<double>(other.points) / (one.points + other.points);
+      one.position = one.position + share * (other.position - one.position);
+      one.radius = std::max(one.radius, other.radius);
+      one.points += other.points;
+      one.by_map = one.by_map || other.by_map;
+      one.is_mapped = one.is_mapped || other.is_mapped;
+      one.has_come = one.has_come || other.has_come;
+      one.thing_gain = std::min(one.thing_gain, other.thing_gain);
+      people.erase(people.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+}
+
 }  // namespace
 
 Result<void> SightingParams::validate() const {
@@ -194,6 +218,7 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
       if (sighting.points >= params.least_points) people.push_back(sighting);
     }
   }
+  join_near(people);
   return people;
 }
 

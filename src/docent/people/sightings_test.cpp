@@ -21,6 +21,17 @@ TEST(FindPeople, TwoLegsAreOnePerson) {
   }
 }
 
+TEST(FindPeople, SomebodySeenBetweenTwoLegsDoesNotMakeThemTwo) {
+  Scene scene;
+  scene.add_disc({1.6, 0.12}, 0.06);
+  scene.add_disc({1.6, -0.12}, 0.06);
+  scene.add_disc({3.0, 0.0}, 0.24);
+  const auto people = find_people(scene.sweep(), {}, {}, {});
+  ASSERT_EQ(people.size(), 2U);
+  EXPECT_LT(distance(people[0].position, {1.6, 0.0}), 0.2);
+  EXPECT_LT(distance(people[1].position, {3.0, 0.0}), 0.2);
+}
+
 TEST(FindPeople, LeavesTheMapOutAndSeesWhoStandsBeforeIt) {
   Scene scene;
   scene.add_wall({4.0, -3.0}, {4.0, 3.0}, true);

@@ -143,6 +143,7 @@ void add_simulate_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->capture_default_str();
   command->add_option("--people", options->run.people, "so many persons instead of the crowd's density")
       ->check(CLI::Range(0, 10000));
+  options->run.bodies = "legs";  // what a robot meets in a hall; a run that a test makes has discs
   command->add_option("--bodies", options->run.bodies, "what people are made of: legs that walk, or discs to the floor")
       ->check(CLI::IsMember({"legs", "discs"}))
       ->capture_default_str();

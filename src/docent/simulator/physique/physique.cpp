@@ -136,16 +136,22 @@ void Gait::walk(Point2 velocity, double dt, const Physique& physique) {
   constexpr double kDrawsIn = 0.6;     // [m/s] with which legs come together and apart
   const double speed = norm(velocity);
   if (speed > kStands) {
-    const double off = std::atan2(cross(facing_, velocity), dot(facing_, velocity));
-    const double turn = std::clamp(off, -physique.turn_rate * dt, physique.turn_rate * dt);
-    const Point2 left{-facing_.y, facing_.x};
-    facing_ = std::cos(turn) * facing_ + std::sin(turn) * left;
-    facing_ = (1.0 / norm(facing_)) * facing_;
+    const double most = physique.turn_rate * dt;
+    const double across = cross(facing_, velocity);
+    const double along = dot(facing_, velocity);
+    if (std::abs(across) <= most * along) {  // within the turn, for tan(most) is more: they walk as they face
+      facing_ = (1.0 / speed) * velocity;
+    } else {
+      const double turn = std::clamp(std::atan2(across, along), -most, most);
+      const Point2 left{-facing_.y, facing_.x};
+      facing_ = std::cos(turn) * facing_ + std::sin(turn) * left;
+      facing_ = (1.0 / norm(facing_)) * facing_;
+    }
   }
   const double wanted = speed > kStands ? 0.5 * physique.stance * std::min(1.0, speed / kFullStride) : 0.0;
   spread_ += std::clamp(wanted - spread_, -kDrawsIn * dt, kDrawsIn * dt);
   phase_ += speed * dt / (2.0 * physique.stance);
-  phase_ -= std::floor(phase_);
+  if (phase_ >= 1.0) phase_ -= std::floor(phase_);
   // The left leg falls back evenly for one step, as the floor does under a body, and comes forward in the next.
   swing_ = spread_ * (phase_ < 0.5 ? 1.0 - 4.0 * phase_ : 4.0 * phase_ - 3.0);
 }

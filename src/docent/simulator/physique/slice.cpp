@@ -11,9 +11,10 @@ Disc nearest_part(const Posture& posture, Point2 from, double height) {
   for (const BodyPart& part : posture.physique->parts) {
     if (part.bottom >= height) continue;
     const Disc disc = posture.place(part);
-    const double gap = distance(disc.centre, from) - disc.radius;
-    if (gap >= least) continue;
-    least = gap;
+    const Point2 offset = disc.centre - from;
+    const double bound = least + disc.radius;
+    if (bound <= 0.0 || dot(offset, offset) >= bound * bound) continue;  // no root for most
+    least = norm(offset) - disc.radius;
     nearest = disc;
   }
   return nearest;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,6 +48,24 @@ TEST(Slice, ABodyMeetsWhatIsNearestOfThemBelowItsTop) {
   EXPECT_NEAR(reach_towards(posture, {1.0, 0.0}), 0.2, 1e-12);
   EXPECT_NEAR(reach_towards({{1.0, 0.0}, {1.0, 0.0}, 0.3, &physique}, {1.0, 0.0}), 0.36, 1e-12)
       << "a leg in mid-stride";
+}
+
+TEST(Slice, TheNearestPartIsThatOfALookAtAllOfThem) {
+  Rng rng{17};
+  for (int i = 0; i < 500; ++i) {
+    const bool is_child = rng.chance(0.2);
+    const Physique physique = draw_physique({.wheelchair_share = 0.2}, {is_child, 1.6, is_child ? 0.17 : 0.26}, rng);
+    const Posture posture{{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)},
+                          unit(Angle::radians(rng.uniform(-3.0, 3.0))),
+                          rng.uniform(-0.15, 0.15),
+                          &physique};
+    const Point2 from{rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5)};  // sometimes within a part
+    double least = 1e9;
+    for (const BodyPart& part : physique.parts)
+      if (part.bottom < 1.2) least = std::min(least, distance(posture.place(part).centre, from) - part.radius);
+    const Disc nearest = nearest_part(posture, from, 1.2);
+    EXPECT_NEAR(distance(nearest.centre, from) - nearest.radius, least, 1e-12);
+  }
 }
 
 }  // namespace

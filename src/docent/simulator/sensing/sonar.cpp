@@ -27,6 +27,15 @@ double first_person(Point2 origin, Point2 direction, std::span<const Disc> peopl
   return range;
 }
 
+/// Whether a disc may reach between two rays, `off` [rad] to each side of the axis. Never false for one that does.
+bool may_be_met(const Pose2& world_from_sonar, double off, const Disc& disc) {
+  constexpr double kRounding = 1e-6;  // [m]
+  const Point2 axis = unit(world_from_sonar.theta);
+  const Point2 offset = disc.centre - world_from_sonar.position();
+  const double beyond = std::cos(off) * std::abs(cross(axis, offset)) - std::sin(off) * dot(axis, offset);
+  return beyond <= disc.radius + kRounding;
+}
+
 }  // namespace
 
 SonarRing::SonarRing(const SonarParams& params, Rng rng) : params_{params}, rng_{rng} {
@@ -72,6 +81,9 @@ SonarRing::Echo SonarRing::listen(const Pose2& world_from_sonar, const RayCaster
   Echo nearest;
   const double gain = std::exp(rng_.normal(0.0, params_.flutter));
   const bool is_lost = rng_.chance(params_.lost);
+  ahead_.clear();
+  for (const Disc& disc : near_)
+    if (may_be_met(world_from_sonar, params_.lobe, disc)) ahead_.push_back(disc);
   for (int i = 0; i < kRays; ++i) {
     trace(world_from_sonar, params_.lobe * (2.0 * i / (kRays - 1) - 1.0), gain, walls, nearest);
   }
@@ -96,7 +108,7 @@ void SonarRing::trace(const Pose2& world_from_sonar, double off, double gain, co
     const double left = params_.max_range - way;
     if (left <= 0.0) return;
     const RayHit hit = walls.cast(origin, direction, left);
-    const double person = first_person(origin, direction, near_);
+    const double person = first_person(origin, direction, bounce == 0 ? ahead_ : near_);
     if (person < hit.distance && person < left) {
       answer(params_.clothes, way + person, origin + person * direction, bounce);
       return;

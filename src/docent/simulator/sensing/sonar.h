@@ -77,6 +77,7 @@ class SonarRing {
   Rng rng_;
   double sound_ = 1.0;        ///< measured over true distance
   std::vector<Disc> near_;    ///< people within reach of the ring
+  std::vector<Disc> ahead_;   ///< of these, whom the sonar that listens may meet without a bounce
   std::vector<Echo> echoes_;  ///< [together]
   std::vector<Ping> pings_;   ///< [together]
 };
