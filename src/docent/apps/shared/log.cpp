@@ -11,10 +11,6 @@ namespace docent::apps {
 
 namespace {
 
-constexpr double kTerminal = 0.5;  // [s] between changes of the line
-constexpr double kLeast = 2.0;     // [s] between lines through a pipe
-constexpr double kMost = 60.0;     // [s] without a line through a pipe
-
 constexpr std::string_view kPattern = "%Y-%m-%d %H:%M:%S.%e %l %n: %v";
 
 spdlog::level::level_enum level_of(LogLevel level) {
@@ -55,6 +51,9 @@ void log_to_stderr(LogLevel level, const std::string& module, const std::string&
 }
 
 bool Progress::is_due(double done, double wall_s) {
+  constexpr double kTerminal = 0.5;  // [s] between changes of the line
+  constexpr double kLeast = 2.0;     // [s] between lines through a pipe
+  constexpr double kMost = 60.0;     // [s] without a line through a pipe
   const double since = wall_s - last_s_;
   const bool is_due = is_terminal_ ? since >= kTerminal : since >= kMost || (since >= kLeast && done >= next_done_);
   if (!is_due) return false;

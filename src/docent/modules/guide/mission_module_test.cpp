@@ -382,6 +382,7 @@ TEST(Tour, ChargesServesAfterwardsAndSaysUntilWhen) {
   EXPECT_EQ(rehearsal.events_of("tour_broken_off"), std::vector<std::string>{"all"});
   EXPECT_EQ(rehearsal.client.state_of("t1"), "queued");
   EXPECT_EQ(rehearsal.mission.phase, "charging");
+  EXPECT_FALSE(rehearsal.events_of("charger").empty()) << "by it others see that the task was done";
   EXPECT_EQ(rehearsal.mission.texts.at(0),
             "I am charging my battery, for about 10 more minutes. I keep your wishes in mind.");
   rehearsal.client.wish_for("r1", "exhibit", "echo");
