@@ -48,7 +48,7 @@ struct ParallaxCheckParams {
   double longest = 8.0;       ///< [s] or other people
   double news_turn = 0.1;     ///< [rad] who turns on the spot keeps his newest sweep,
   double news_time = 1.0;     ///< [s] who stands likewise
-  double share = 0.5;         ///< of the samples of a pair must agree
+  double share = 0.3;         ///< of the samples of a pair must agree
   double least_error = 0.03;  ///< [m] of a pair, and of all: things are not where two beams say to the millimetre
   int least_pairs = 3;        ///< that count together,
   int most_pairs = 12;        ///< the last ones
