@@ -41,7 +41,7 @@ struct ParallaxOffset {
 
 struct ParallaxCheckParams {
   ParallaxParams pair{};
-  double between = 0.02;      ///< [m] of way between sweeps that are kept
+  double between = 0.01;      ///< [m] of way between sweeps that are kept
   double least_way = 0.2;     ///< [m] between two that are compared,
   double farthest = 0.8;      ///< [m] at most: then other places are in view,
   double most_turn = 0.6;     ///< [rad] likewise,
@@ -51,7 +51,7 @@ struct ParallaxCheckParams {
   double share = 0.3;         ///< of the samples of a pair must agree
   double least_error = 0.03;  ///< [m] of a pair, and of all: things are not where two beams say to the millimetre
   int least_pairs = 3;        ///< that count together,
-  int most_pairs = 12;        ///< the last ones
+  int most_pairs = 20;        ///< the last ones
   double same = 0.15;         ///< [m] a pair agrees with all, besides its error,
   double agree = 0.75;        ///< of the weight must
   double sure = 4.0;          ///< standard deviations
