@@ -204,13 +204,16 @@ def protocol(bench, options):
 
 def bare(bench, options, seeds, verdict):
     """From the start, on robots without a ring, in both museums."""
-    for museum in MUSEUMS:
+    kinds = options.cases.split(";") if options.cases else BARE_KINDS
+    if set(kinds) - set(BARE_KINDS):
+        raise RuntimeError(f"--cases: one of {'; '.join(BARE_KINDS)}")
+    for museum in options.museums.split(",") if options.museums else MUSEUMS:
         of = bench.of(museum, "busy")
         print(f"\n## lies from the start without a ring, {museum}, busy, {len(seeds)} seeds\n")
         table = []
         for name, (robot, places) in BARE.items():
             robot = [str(bench.museums.parent / "robots" / part) if part.endswith(".yaml") else part for part in robot]
-            for kind in BARE_KINDS:
+            for kind in kinds:
                 for which in places:
                     outcomes = of.each([lambda s=s, k=kind, w=which: begin(of, k, w, s, robot) for s in seeds])
                     table.append(row_of(kind, f"{which} of {name}", "at the start", outcomes))

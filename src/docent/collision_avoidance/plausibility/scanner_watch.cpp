@@ -34,7 +34,8 @@ ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shar
       of_map_{params.sectors},
       near_{params.near},
       rings_{params.rings},
-      straight_{params.straight} {}
+      straight_{params.straight},
+      parallax_{params.parallax} {}
 
 void ScannerWatch::convict(Lie lie, Time when) {
   if (!lie_) {
@@ -43,17 +44,6 @@ void ScannerWatch::convict(Lie lie, Time when) {
   }
   lie_->last_sign = when;
   is_proven_ = false;
-}
-
-bool ScannerWatch::is_tried(Time now) const {
-  return may_try() && now - lie_->last_sign > seconds(lie_->is_brief ? params_.stands_briefly : params_.stands);
-}
-
-void ScannerWatch::acquit() {
-  lie_.reset();
-  lies_ = 0;
-  motion_.forget();
-  is_proven_ = true;
 }
 
 void ScannerWatch::follow_mount(const SensorSweep& sweep) {
@@ -70,6 +60,7 @@ void ScannerWatch::follow_mount(const SensorSweep& sweep) {
   forget_places();
   old_.forget();
   straight_.forget();
+  parallax_.forget();
   word_ = {.broken = sweep.stamp, .remounted = sweep.stamp};
 }
 
@@ -115,11 +106,6 @@ void ScannerWatch::follow_lie(const SweepView& view, const RangeLaw& law) {
   before_ = view;
 }
 
-bool ScannerWatch::is_same(const RangeLaw& a, const RangeLaw& b) const {
-  return std::abs(a.offset - b.offset) <= params_.same_offset &&
-         std::abs(std::log(a.scale / b.scale)) <= params_.same_factor;
-}
-
 ScannerWatch::Verdict ScannerWatch::verdict(const RangeLaw& law, Time since, std::span<const Word> others) const {
   Verdict found = Verdict::none;
   for (const Word& other : others) {
@@ -132,6 +118,7 @@ ScannerWatch::Verdict ScannerWatch::verdict(const RangeLaw& law, Time since, std
 
 void ScannerWatch::forget_places() {
   motion_.forget();
+  parallax_.forget_place();
   walls_.reset();
   near_.forget();
   sectors_.forget_newest();
@@ -367,6 +354,16 @@ void ScannerWatch::judge_by_walls(const SweepView& view) {
   straight_.forget();  // it may be mended
 }
 
+void ScannerWatch::judge_by_parallax(const SweepView& view) {
+  if (lie_ || form_.is_silent) return parallax_.forget_place();
+  if (parallax_.add(view) != ParallaxCheck::Finding::offset) return;
+  const RangeLaw law{.offset = parallax_.offset()};
+  if (does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
+  const std::string what = "the distances of the " + name_ + " do not fit the motion: " + to_words(law);
+  convict({.what = what, .by = Lie::By::walls, .law = law}, view.stamp);
+  straight_.forget();  // it may be mended
+}
+
 void ScannerWatch::hide(SensorSweep& sweep, const SweepView& view) const {
   const bool is_nothing_to_believe =
       lie_ || form_fault_ == FormFault::units || (form_.is_silent && !is_silence_explained_);
@@ -400,6 +397,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
   rays_of_samples_ = view.rays;
   if (!is_motion_known) {
     motion_.forget();
+    parallax_.forget_place();
     old_.forget();
     forget_succession();
     before_.reset();
@@ -426,6 +424,7 @@ SensorSweep ScannerWatch::judge(SensorSweep sweep, const Pose2& odom_from_base, 
     judge_by_map(view, others);
     judge_by_rings(view, by_rings);
     judge_by_walls(view);
+    judge_by_parallax(view);
     if (!form_.is_silent && !lie_) look_for_walls(view);
   }
   hide(sweep, view);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "docent/collision_avoidance/body/base_motion.h"
+#include "docent/collision_avoidance/expected_sweeps/parallax.h"
 #include "docent/collision_avoidance/expected_sweeps/range_law.h"
 #include "docent/collision_avoidance/expected_sweeps/straight_walls.h"
 #include "docent/collision_avoidance/expected_sweeps/succession.h"
@@ -33,6 +35,7 @@ struct ScannerWatchParams {
   MapCheckParams map{};
   RingCheckParams rings{};
   StraightWallsCheckParams straight{};
+  ParallaxCheckParams parallax{};
   SuccessionParams succession{};
   double crippled_speed = 0.25;  ///< [m/s] as ComplaintParams::crippled_speed, with a scanner that is blind in part
   double unproven_speed = 0.25;  ///< [m/s] until motion or the map has borne a scanner out,
@@ -117,7 +120,7 @@ class ScannerWatch {
   /// A lie of the whole sweep, other than one of its form.
   struct Lie {
     /// How it was found: by the sweep before it began, which tells when it ends; by the motion; by the map;
-    /// by sonars and infrared sensors; by straight walls that are not straight.
+    /// by sonars and infrared sensors; by walls that are not straight, or pass by otherwise than they should.
     enum class By { sweeps, motion, map, rings, walls };
     std::string what;  ///< for a person
     By by = By::sweeps;
@@ -151,7 +154,10 @@ class ScannerWatch {
   /// What others say to a law that this scanner seems to follow since `since`.
   enum class Verdict { none, borne_out, carried_off };
   [[nodiscard]] Verdict verdict(const RangeLaw& law, Time since, std::span<const Word> others) const;
-  [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const;
+  [[nodiscard]] bool is_same(const RangeLaw& a, const RangeLaw& b) const {
+    return std::abs(a.offset - b.offset) <= params_.same_offset &&
+           std::abs(std::log(a.scale / b.scale)) <= params_.same_factor;
+  }
   [[nodiscard]] bool is_borne_out_by_map(const RangeLaw& law, Time now, std::span<const Word> others) const;
   void judge_age(const SweepView& view, const SensorSweep& sweep, const Pose2& odom_from_base);
   void judge_motion(const SweepView& view);
@@ -165,6 +171,8 @@ class ScannerWatch {
   /// The ring has borne the scanner out, and every sweep since was as the one before let expect.
   [[nodiscard]] bool is_glass(const RangeLaw& law) const;
   void judge_by_walls(const SweepView& view);
+  /// An offset from the start, by what passes by while the robot drives.
+  void judge_by_parallax(const SweepView& view);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.
   void look_for_walls(const SweepView& view);
@@ -174,8 +182,15 @@ class ScannerWatch {
   /// Whether motion can show that it has ended: an offset moves along.
   [[nodiscard]] bool may_try() const { return lie_->law.offset == 0.0; }
   /// It stood long enough: very slowly it finds out.
-  [[nodiscard]] bool is_tried(Time now) const;
-  void acquit();
+  [[nodiscard]] bool is_tried(Time now) const {
+    return may_try() && now - lie_->last_sign > seconds(lie_->is_brief ? params_.stands_briefly : params_.stands);
+  }
+  void acquit() {
+    lie_.reset();
+    lies_ = 0;
+    motion_.forget();
+    is_proven_ = true;
+  }
   void hide(SensorSweep& sweep, const SweepView& view) const;
   /// No sonar and no infrared sensor bears it out; where there is a map it soon might.
   [[nodiscard]] bool is_alone() const { return !has_ring_ && map_.has_map(); }
@@ -195,6 +210,7 @@ class ScannerWatch {
   NearThings near_;
   RingCheck rings_;
   StraightWallsCheck straight_;
+  ParallaxCheck parallax_;
   int rings_row_ = 0;  ///< sweeps in succession of which the rings say that they are too long,
   Time fits_rings_{};  ///< when they last bore it out; never, if what came since does not follow from that sweep
   bool has_ring_ = false;

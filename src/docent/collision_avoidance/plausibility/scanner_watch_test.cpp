@@ -84,9 +84,9 @@ TEST_F(Watched, NamesUnitsAndSilenceFromTheFirstSweepOn) {
   EXPECT_EQ(unread(), 180);
 }
 
-TEST_F(Watched, AnOffsetFromTheStartBendsWallsAndIsNamedWithoutRingAndMap) {
+TEST_F(Watched, AnOffsetFromTheStartIsNamedWithoutRingAndMapAfterThreeDecimetres) {
   const auto longer = [](SensorSweep& sweep) { each(sweep, [](float range) { return range + 0.5F; }); };
-  EXPECT_EQ(drive(9.0, longer, 0.1), "walls that the front laser sees are bent: its distances are 0.5 m too long");
+  EXPECT_EQ(drive(3.0, longer, 0.1), "the distances of the front laser do not fit the motion: 0.5 m too long");
   EXPECT_EQ(speed(), 0.0);
   EXPECT_EQ(unread(), 180);
   EXPECT_EQ(drive(20.0, {}, 0.0), "");
