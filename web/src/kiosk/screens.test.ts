@@ -119,7 +119,7 @@ describe('a tour', () => {
 describe('on the way', () => {
   test('says which stop of how many this is, and what comes next', () => {
     const on = (phase: string, agenda: string[]) => at({ mission: mission(phase, { tour: 'a', agenda }) }).progress;
-    expect(on('driving', ['coin'])).toBe('stop 1 of 2 · next: The coin');
+    expect(on('driving', ['coin'])).toBe('stop 1 of 2 · then: The coin');
     expect(on('explaining', [])).toBe('stop 2 of 2 · the last one');
     expect(at({ mission: mission('driving') }).progress).toBeUndefined();
   });

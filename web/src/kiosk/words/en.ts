@@ -19,7 +19,7 @@ const words = {
   endTour: 'End the tour',
   endQuestion: 'End this tour?',
   stopOf: 'stop {} of {}',
-  then: 'next:',
+  then: 'then:',
   lastStop: 'the last one',
   helpTitle: 'This is how it works',
   helpChoose: 'Choose a tour.',
