@@ -55,7 +55,10 @@ await check('a whole tour by four buttons only', async () => {
   await shows(page, 'driving', 15000);
   const asked = (await board(page)).filter((entry) => entry.kind === 'tour' && entry.state === 'active');
   ensure(asked.length === 1 && asked[0].source === 'kiosk' && asked[0].target === 'highlights', JSON.stringify(asked));
-  ensure(!(await lit(page)).includes('1'), 'a tour can be asked for twice');
+  await pressButton(1); // end it?
+  await shows(page, 'ending');
+  await pressButton(1); // no
+  await shows(page, 'driving');
   // More at the first exhibit, on at the second.
   await shows(page, 'explaining', 60000);
   await page.locator('.soon').waitFor();
@@ -102,9 +105,8 @@ await check('by keys, in French; a key and its button at once are one press', as
   await shows(page, 'tours');
   await pause(500);
   ensure((await screenOf(page)) === 'tours', 'the button came after the key and was a second press');
-  await pressKey(page, '4');
+  await pressKey(page, '3'); // the others
   await page.locator('button', { hasText: 'Six minutes avec moi' }).waitFor();
-  await pressKey(page, '3'); // nothing lies there
   await pressKey(page, '4'); // back home
   await shows(page, 'home');
   await pressKey(page, '1');
@@ -175,4 +177,20 @@ await check('a dead line is seen, and the screen comes back by itself', async ()
 });
 
 closeSync(buttons);
+await check('who asked for a tour here ends it here, and says so twice', async () => {
+  const { page, context } = await listen({ viewport: { width: 1920, height: 1080 } });
+  await page.goto(kiosk);
+  await shows(page, 'home', 120000);
+  await pressKey(page, '1');
+  await shows(page, 'driving', 15000);
+  await pressKey(page, '1');
+  await shows(page, 'ending');
+  await pressKey(page, '3');
+  await until('it is called off', async () => {
+    const tours = (await board(page)).filter((entry) => entry.kind === 'tour');
+    return tours.some((entry) => entry.state === 'cancelled') && tours.every((entry) => entry.state !== 'active');
+  });
+  await context.close();
+});
+
 await finish();

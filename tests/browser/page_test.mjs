@@ -164,10 +164,15 @@ await check('what is known of an exhibit closes when the robot sets out', async 
   await page.locator('.about').waitFor({ state: 'detached', timeout: 20000 });
 });
 
-await check('a tour is one click', async () => {
+await check('a tour says its stops and how long it takes, asks for a name, and is then two clicks', async () => {
   const tour = page.locator('[data-tour]').first();
   const id = await tour.getAttribute('data-tour');
+  ensure(/\d stops · about \d+ min/.test(await tour.innerText()), await tour.innerText());
   await tour.click();
+  ensure((await page.locator('.tour-more li').count()) > 1, 'no stops');
+  ensure((await page.locator(`.queue li[data-target="${id}"]`).count()) === 0, 'it was ordered by a look at it');
+  await page.locator('.tour-more .who input').fill('Konrad');
+  await page.locator(`[data-order="${id}"]`).click();
   await page.locator(`.queue li.mine[data-target="${id}"]`).waitFor();
   await page.locator(`.queue li[data-target="${id}"] .close`).click();
   await page.locator(`.queue li.done[data-target="${id}"][data-state=cancelled]`).waitFor();

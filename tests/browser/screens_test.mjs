@@ -93,7 +93,10 @@ const states = {
     await wishes(page, [{ ...tourWish, made: Date.now(), state: 'refused', reason: { word: 'closed', about: '' } }]);
     await reload();
   }],
-  driving: ['driving', async ({ robot }) => robot.mission('driving', { exhibit: 'zuse' })],
+  driving: ['driving', async ({ page, robot }) => {
+    robot.mission('driving', { exhibit: 'zuse', tour: 'highlights', agenda: ['transrapid'] });
+    await page.locator('.progress').waitFor();
+  }],
   picture: ['driving', async ({ robot }) => robot.mission('driving', { exhibit: 'transrapid' })],
   blocked: ['blocked', async ({ robot }) => {
     robot.say({ type: 'path', points: [], goal: '', state: 'blocked', remaining: 4, blocked: 3 });

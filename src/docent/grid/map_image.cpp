@@ -1,6 +1,8 @@
 #include "docent/grid/map_image.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -25,6 +27,16 @@ constexpr Kind kOthers[] = {
     {"PK\x03\x04"sv, "a ZIP archive"}, {"\x1f\x8b"sv, "a gzipped file"},
 };
 
+/// What a file of this name should begin with; empty: the name says nothing.
+std::string promise_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (extension == ".pgm") return "a PGM image begins with P5 or P2";
+  if (extension == ".png") return "a PNG image begins with the byte 137 and PNG";
+  return {};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<MapImage>> open_map_image(const std::filesystem::path& path) {
@@ -42,6 +54,8 @@ Result<std::unique_ptr<MapImage>> open_map_image(const std::filesystem::path& pa
     if (begin.starts_with(kind.begins))
       return fail(name + "this is " + std::string{kind.name} +
                   ": a map's image is PGM (P2, P5) or PNG; any program that edits pictures writes those, without loss");
+  if (const std::string promise = promise_of(path); !promise.empty())
+    return fail(name + promise + ", and this file does not: it is damaged, or something else");
   return fail(name + "neither a PGM (P2, P5) nor a PNG image");
 }
 

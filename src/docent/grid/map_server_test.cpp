@@ -104,8 +104,16 @@ TEST_F(Maps, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("image: ok.pgm\nresolution: 1\norigin: [0, 0]\n"), "m.yaml:3: origin must be [x, y, yaw]");
   EXPECT_EQ(fault_of("image: short.pgm\nresolution: 1\norigin: [0, 0, 0]\n"),
             "short.pgm:4: PGM ends early: 4 bytes of pixels expected, 2 found");
-  EXPECT_EQ(fault_of("image: no.png\nresolution: 1\norigin: [0, 0, 0]\n"),
-            "no.png:1: neither a PGM (P2, P5) nor a PNG image");
+  EXPECT_EQ(
+      fault_of("image: no.png\nresolution: 1\norigin: [0, 0, 0]\n"),
+      "no.png:1: a PNG image begins with the byte 137 and PNG, and this file does not: it is damaged, or something "
+      "else");
+  write("broken.PGM", "Pn\n2 2\n255\nabcd");
+  EXPECT_EQ(fault_of("image: broken.PGM\nresolution: 1\norigin: [0, 0, 0]\n"),
+            "broken.PGM:1: a PGM image begins with P5 or P2, and this file does not: it is damaged, or something else");
+  write("map.raw", "this is nothing like an image");
+  EXPECT_EQ(fault_of("image: map.raw\nresolution: 1\norigin: [0, 0, 0]\n"),
+            "map.raw:1: neither a PGM (P2, P5) nor a PNG image");
   EXPECT_NE(fault_of("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]\n").find("none.pgm: cannot be read"),
             std::string::npos);
 }

@@ -41,11 +41,23 @@ std::string no_museum(const fs::path& given) {
   return text + ")";
 }
 
+/// A folder that holds museums, or none.
+std::string no_museum_in(const fs::path& folder, const std::vector<std::string>& inside) {
+  std::string text = folder.string() + ": this folder has no museum.yaml";
+  if (inside.size() == 1) return text + "; did you mean '" + (folder / inside.front()).string() + "'?";
+  text += "; did you mean one of the museums in it? (";
+  for (const std::string& each : inside) text += (each == inside.front() ? "" : ", ") + (folder / each).string();
+  return text + ")";
+}
+
 }  // namespace
 
 Result<YamlFile> load_museum_file(const fs::path& folder) {
   std::error_code code;
   if (!fs::exists(folder, code)) return fail(no_museum(folder));
+  if (fs::is_directory(folder, code) && !fs::exists(folder / "museum.yaml", code)) {
+    if (const auto inside = museums_in(folder); !inside.empty()) return fail(no_museum_in(folder, inside));
+  }
   return YamlFile::load(folder / "museum.yaml");
 }
 
@@ -54,8 +66,12 @@ MuseumSource read_museum_file(const YamlFile& file, const fs::path& folder, Stag
   const YAML::Node& root = file.root();
   if (stage == Stage::being_set_up || !root.IsMap()) return source;
   const YAML::Node exhibits = root["exhibits"];
-  if (exhibits.IsDefined() && exhibits.IsSequence() && exhibits.size() == 0)
-    source.faults.push_back(file.fault(exhibits, "needs at least one exhibit"));
+  if (exhibits.IsDefined() && exhibits.IsSequence() && exhibits.size() == 0) {
+    // That tours name exhibits which are not there follows from this.
+    std::erase_if(source.faults,
+                  [](const Error& fault) { return fault.message.find(": unknown exhibit '") != std::string::npos; });
+    source.faults.insert(source.faults.begin(), file.fault(exhibits, "needs at least one exhibit"));
+  }
   return source;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "docent/base/suggestion.h"
 #include "docent/museum/languages.h"
 #include "docent/museum/museum_fields.h"
 #include "docent/museum/scene_camera_yaml.h"
@@ -266,7 +267,8 @@ class MuseumYamlReader : MuseumFields {
         guarded([&] {
           const std::string name = text(entry.first, "a mode");
           if (!museum_.modes.contains(name)) {
-            throw fault(entry.first, "unknown mode '" + name + "' (open, web, closed)");
+            throw fault(entry.first, "unknown mode '" + name + "'" + did_you_mean(name, {"open", "web", "closed"}) +
+                                         " (open, web, closed)");
           }
           museum_.modes[name] = mode(name, entry.second);
         });

@@ -364,11 +364,13 @@ struct VotesMessage {
 struct HoursMessage {
   static constexpr const char* kName = "HoursMessage";
   static constexpr const char* kType = "hours";
-  std::string mode;      ///< open, web, closed
-  bool is_open = false;  ///< the robot takes requests
+  std::string mode;       ///< open, web, closed
+  bool is_open = false;   ///< the robot takes requests
+  std::string next_mode;  ///< comes next by itself, as the museum's hours say; empty: none does
+  std::string next_at;    ///< "HH:MM" by the museum's clock
   template <class Self, class V>
   static void visit(Self& d, V& v) {
-    v("mode", d.mode), v("is_open", d.is_open);
+    v("mode", d.mode), v("is_open", d.is_open), v("next_mode", d.next_mode), v("next_at", d.next_at);
   }
 };
 

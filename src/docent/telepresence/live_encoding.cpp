@@ -227,8 +227,9 @@ std::string encode_votes(const Tally& tally) {
   return json_text(message);
 }
 
-std::string encode_hours(const std::string& mode, bool is_open) {
-  return json_text(documents::HoursMessage{mode, is_open});
+std::string encode_hours(const std::string& mode, bool is_open, const std::string& next_mode,
+                         const std::string& next_at) {
+  return json_text(documents::HoursMessage{mode, is_open, next_mode, next_at});
 }
 
 std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers, Time now) {

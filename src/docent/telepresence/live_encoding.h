@@ -62,7 +62,9 @@ struct HealthEntry {
 /// cancel the request.
 [[nodiscard]] std::string encode_board(const docent_msgs::RequestBoard& board);
 [[nodiscard]] std::string encode_votes(const Tally& tally);
-[[nodiscard]] std::string encode_hours(const std::string& mode, bool is_open);
+/// @param next_mode  comes next by itself; empty: none does. @param next_at  "HH:MM"
+[[nodiscard]] std::string encode_hours(const std::string& mode, bool is_open, const std::string& next_mode = "",
+                                       const std::string& next_at = "");
 /// A module that was not heard for 2 s is silent. `viewers`: how many watch.
 [[nodiscard]] std::string encode_health(const std::map<std::string, HealthEntry>& modules, std::size_t viewers,
                                         Time now);

@@ -220,6 +220,8 @@ export interface HoursMessage {
   type: 'hours';
   mode: string;
   is_open: boolean;
+  next_mode: string;
+  next_at: string;
 }
 export interface FieldMessage {
   type: 'field';

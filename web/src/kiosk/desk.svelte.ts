@@ -153,6 +153,9 @@ class Desk {
       case 'help':
         app.tell(helpOf(uuid7(), app.language));
         return this.open('help');
+      case 'end':
+        this.endTour();
+        return this.open('home');
       case 'language':
         this.speak(act.code);
         return this.open('home');
@@ -167,6 +170,11 @@ class Desk {
       case 'skip':
         return this.goTo(pollQuestions.length);
     }
+  }
+  /** What was wished for here is not wished for any more; others who follow the same tour keep theirs. */
+  private endTour(): void {
+    const wish = app.wishes.at(-1);
+    if (wish && openStates.includes(wish.state)) app.cancel(wish);
   }
   private open(page: Page, from = 0): void {
     this.page = page;

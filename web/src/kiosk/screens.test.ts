@@ -46,23 +46,25 @@ describe('at home', () => {
       expect(at({ mission: mission(phase) }).text).not.toBe(at({}).text);
     }
   });
-  test('every tour can be reached by the fourth button, and the way ends at home', () => {
+  test('every tour can be reached by the third button, and the fourth always leads back', () => {
     const seen = new Set<string>();
     let from = 0;
-    for (let press = 0; press < 10; ++press) {
+    for (let press = 0; press < 3; ++press) {
       const screen = at({ page: 'tours', from });
       for (const choice of screen.choices) if (choice?.act.do === 'tour') seen.add(choice.act.id);
-      const on = screen.choices[3]!.act;
-      if (on.do !== 'page') throw new Error('the fourth button leads nowhere');
-      if (on.page === 'home') break;
+      expect(screen.choices[3]).toMatchObject({ label: 'Back', act: { do: 'page', page: 'home' } });
+      const on = screen.choices[2]!.act;
+      if (on.do !== 'page') throw new Error('the third button leads nowhere');
       from = on.from!;
     }
     expect([...seen].sort()).toEqual(['a', 'b', 'c', 'd', 'e']);
+    expect(from).toBe(0);
+    expect(labels(at({ page: 'tours', museum: museum(['en'], ['a', 'b', 'c']) }).choices)).toEqual(['Tour a', 'Tour b', 'Tour c', 'Back']);
   });
   test('as many languages as the museum has, each by its own name', () => {
     const screen = at({ page: 'languages', museum: museum(['en', 'de', 'fr', 'nl', 'it'], ['a']) });
-    expect(labels(screen.choices)).toEqual(['English', 'Deutsch', 'Français', 'Language …']);
-    expect(labels(at({ page: 'languages', from: 3, museum: museum(['en', 'de', 'fr', 'nl', 'it'], ['a']) }).choices)).toEqual(['Nederlands', 'Italiano', null, 'Back']);
+    expect(labels(screen.choices)).toEqual(['English', 'Deutsch', 'Language …', 'Back']);
+    expect(labels(at({ page: 'languages', from: 4, museum: museum(['en', 'de', 'fr', 'nl', 'it'], ['a']) }).choices)).toEqual(['Italiano', null, 'Language …', 'Back']);
   });
 });
 
@@ -82,7 +84,7 @@ describe('a tour', () => {
   });
   test('on the way it shows where to; others may ask for a tour, too', () => {
     const own = at({ mission: mission('driving'), asked: { state: 'active', reason: null, age: 30, since: 20 } });
-    expect([own.name, own.title, own.exhibit, litOf(own).join()]).toEqual(['driving', 'The clock', 'clock', '4']);
+    expect([own.name, own.title, own.exhibit, litOf(own).join()]).toEqual(['driving', 'The clock', 'clock', '1,4']);
     expect(litOf(at({ mission: mission('driving') }))).toEqual([1, 4]);
     expect(at({ mission: mission('driving'), page: 'tours' }).name).toBe('tours');
     const blocked = at({ mission: mission('driving'), blocked: true });
@@ -111,6 +113,23 @@ describe('a tour', () => {
     const asks = mission('asking', { prompt: asksMore });
     expect(at({ mission: asks, left: 3, answered: true }).name).toBe('answered');
     expect(at({ mission: asks, left: 0 }).name).toBe('explaining');
+  });
+});
+
+describe('on the way', () => {
+  test('says which stop of how many this is, and what comes next', () => {
+    const on = (phase: string, agenda: string[]) => at({ mission: mission(phase, { tour: 'a', agenda }) }).progress;
+    expect(on('driving', ['coin'])).toBe('stop 1 of 2 · then: The coin');
+    expect(on('explaining', [])).toBe('stop 2 of 2 · the last one');
+    expect(at({ mission: mission('driving') }).progress).toBeUndefined();
+  });
+  test('those who wished for it end it, when they say so twice', () => {
+    const own = { mission: mission('driving'), asked: { state: 'active', reason: null, age: 30, since: 20 } };
+    expect(at(own).choices[0]).toMatchObject({ label: 'End the tour', act: { do: 'page', page: 'end' } });
+    const ending = at({ ...own, page: 'end' });
+    expect([ending.name, ...labels(ending.choices)]).toEqual(['ending', 'No', null, 'Yes', null]);
+    expect(ending.choices[2]?.act).toEqual({ do: 'end' });
+    expect(at({ mission: mission('driving'), page: 'end' }).name).toBe('driving');
   });
 });
 

@@ -1,14 +1,16 @@
 // What the robot's own screen shows, and where its four buttons lead, as a function of what the robot says and of what was
 // chosen here. Pure, so that a reload gives the same screen at once and each state can be tested.
 import type { AnswerMessage, MissionMessage, Museum, Reason, SpeechMessage, Tour } from '../lib/protocol';
+import { progressOf } from '../lib/tour';
 import { reasonText } from '../lib/words';
 import { type KioskWord, kioskWord, nameOf } from './words';
 
-export type Page = 'home' | 'tours' | 'languages' | 'help';
+export type Page = 'home' | 'tours' | 'languages' | 'help' | 'end';
 export type Act =
   | { do: 'page'; page: Page; from?: number }
   | { do: 'tour'; id: string }
   | { do: 'help' }
+  | { do: 'end' }
   | { do: 'language'; code: string }
   | { do: 'answer'; option: string }
   | { do: 'poll'; question: AnswerMessage['question']; answer: AnswerMessage['answer'] }
@@ -28,7 +30,7 @@ export interface Choice {
 export type Choices = [Choice | null, Choice | null, Choice | null, Choice | null];
 
 export type ScreenName =
-  | 'stranger' | 'opening' | 'away' | 'lost' | 'home' | 'tours' | 'languages' | 'help' | 'sending' | 'coming' | 'refused'
+  | 'stranger' | 'opening' | 'away' | 'lost' | 'home' | 'tours' | 'languages' | 'help' | 'ending' | 'sending' | 'coming' | 'refused'
   | 'driving' | 'blocked' | 'explaining' | 'asking' | 'answered' | 'poll' | 'thanks';
 export interface Screen {
   name: ScreenName;
@@ -37,6 +39,8 @@ export interface Screen {
   choices: Choices;
   /** Whose picture is shown instead of the face. */
   exhibit?: string;
+  /** How far the tour has come, and what comes next. */
+  progress?: string;
   /** Of `title`, where it is not that of the screen. */
   language?: string;
 }
@@ -120,15 +124,21 @@ class Teller {
     if (others.length === 1) return { label: nameOf(others[0]), language: others[0], act: { do: 'language', code: others[0] } };
     return { label: this.w('language'), about: others.slice(0, 3).map(nameOf).join(' · '), act: { do: 'page', page: 'languages' } };
   }
-  /** Three entries of a list, and the way to the next three, which ends at home. */
+  /** The entries of a list, two at a time with the way to the others, where three are not all. Blue always leads back. */
   list(entries: Choice[], page: Page, more: string): Choices {
+    const back: Choice = { label: this.w('back'), act: { do: 'page', page: 'home' } };
+    if (entries.length <= 3) return [entries[0] ?? null, entries[1] ?? null, entries[2] ?? null, back];
     const from = this.s.from < entries.length ? this.s.from : 0;
-    const [a, b, c] = entries.slice(from, from + 3);
-    const isEnd = from + 3 >= entries.length;
-    const on: Choice = isEnd
-      ? { label: this.w('back'), act: { do: 'page', page: 'home' } }
-      : { label: more, act: { do: 'page', page, from: from + 3 } };
-    return [a ?? null, b ?? null, c ?? null, on];
+    const on = from + 2 < entries.length ? from + 2 : 0;
+    return [entries[from], entries[from + 1] ?? null, { label: more, act: { do: 'page', page, from: on } }, back];
+  }
+  /** "Stop 2 of 5 · next: the Transrapid"; undefined where nobody can say. */
+  progress(): string | undefined {
+    const progress = progressOf(this.s.mission, this.s.museum);
+    if (!progress) return undefined;
+    const here = this.w('stopOf').replace('{}', String(progress.stop)).replace('{}', String(progress.stops));
+    const next = this.s.museum?.exhibits.find((one) => one.id === progress.next[0]);
+    return next ? `${here} · ${this.w('then')} ${this.say(next.title)}` : `${here} · ${this.w('lastStop')}`;
   }
   home(): Choices {
     const tours = this.s.museum?.tours ?? [];
@@ -154,6 +164,11 @@ class Teller {
       const tours = (museum?.tours ?? []).map((tour) => this.tour(tour));
       return this.screen('tours', this.w('whichTour'), '', this.list(tours, 'tours', this.w('otherTours')));
     }
+    if (page === 'end' && this.isOurs()) {
+      const yes: Choice = { label: this.w('yes'), act: { do: 'end' } };
+      const no: Choice = { label: this.w('no'), act: { do: 'page', page: 'home' } };
+      return this.screen('ending', this.w('endQuestion'), '', [no, null, yes, null]);
+    }
     if (page === 'help') {
       const steps = (['helpChoose', 'helpFollow', 'helpListen', 'helpMore'] as const).map((key) => this.w(key)).join('\n');
       const choices = this.home();
@@ -174,6 +189,10 @@ class Teller {
     }
     return null;
   }
+  /** The tour that was wished for here is not over. */
+  isOurs(): boolean {
+    return !!this.s.asked && openStates.includes(this.s.asked.state);
+  }
   asking(): Screen {
     const prompt = this.s.mission!.prompt!;
     if (this.s.answered) return this.screen('answered', this.w('gladly'), '', NONE, this.s.mission!.exhibit);
@@ -185,7 +204,8 @@ class Teller {
       choices[place] = { label: words[option] ? this.w(words[option]) : option, act: { do: 'answer', option } };
     }
     const isOfMore = prompt.options.includes('more');
-    return this.screen('asking', isOfMore ? this.w('moreQuestion') : this.say(prompt.text), isOfMore ? this.w('goOnSoon') : '', choices, this.s.mission!.exhibit);
+    const text = isOfMore ? this.w('goOnSoon') : '';
+    return { ...this.screen('asking', isOfMore ? this.w('moreQuestion') : this.say(prompt.text), text, choices, this.s.mission!.exhibit), progress: this.progress() };
   }
   /** "More" is announced while the first words are spoken: in Bonn people found it at the third exhibit only. */
   explaining(): Screen {
@@ -195,16 +215,17 @@ class Teller {
     const hasMore = !isLong && Object.values(exhibit?.long ?? {}).some((text) => text !== '');
     const coming = (key: KioskWord, option: string): Choice => ({ label: this.w(key), act: { do: 'answer', option }, isComing: true });
     const choices: Choices = hasMore ? [null, null, coming('tellMore', 'more'), coming('goOn', 'next')] : NONE;
-    return this.screen('explaining', this.say(exhibit?.title), this.s.sentence, choices, id);
+    return { ...this.screen('explaining', this.say(exhibit?.title), this.s.sentence, choices, id), progress: this.progress() };
   }
   driving(): Screen {
-    const { mission, museum, blocked, asked } = this.s;
+    const { mission, museum, blocked } = this.s;
     const exhibit = museum?.exhibits.find((one) => one.id === mission!.exhibit);
-    const isOurs = !!asked && openStates.includes(asked.state);
-    const join: Choice | null = isOurs ? null : { label: this.w('anotherTour'), act: { do: 'page', page: 'tours', from: 0 } };
-    const choices: Choices = [join, null, null, this.otherLanguage()];
+    const first: Choice = this.isOurs()
+      ? { label: this.w('endTour'), act: { do: 'page', page: 'end' } }
+      : { label: this.w('anotherTour'), act: { do: 'page', page: 'tours', from: 0 } };
+    const choices: Choices = [first, null, null, this.otherLanguage()];
     const text = this.w(blocked ? 'excuseMe' : 'followMe');
-    return this.screen(blocked ? 'blocked' : 'driving', this.say(exhibit?.title), text, choices, mission!.exhibit);
+    return { ...this.screen(blocked ? 'blocked' : 'driving', this.say(exhibit?.title), text, choices, mission!.exhibit), progress: this.progress() };
   }
   poll(step: number): Screen {
     if (step >= pollQuestions.length) return this.screen('thanks', this.w('thanks'), this.w('thanksText'));

@@ -64,6 +64,7 @@ struct TourRun {
   std::vector<TourMember> members{};  ///< who takes part
   bool asks = true;                   ///< at the next stop: more, or next?
   Time composed_at{-1};               ///< when its pending stops were chosen last
+  Time broken_off{};                  ///< when it was, while it waits to go on
 };
 
 /// A tour is over, and its visitors are still there.
@@ -89,12 +90,13 @@ struct Load {
 
 /// All that must survive.
 struct SchedulerState {
-  RequestBoard board;                  ///< all requests
-  std::optional<Visit> visit;          ///< the one under way
-  std::optional<TourRun> tour;         ///< the one under way
-  Counters counters;                   ///< of what was done
-  std::optional<Farewell> farewell{};  ///< to be said before anything else
-  std::vector<Load> loads{};           ///< rising in time, falling in stops: each the most since it was
+  RequestBoard board;                    ///< all requests
+  std::optional<Visit> visit;            ///< the one under way
+  std::optional<TourRun> tour;           ///< the one under way
+  Counters counters;                     ///< of what was done
+  std::optional<Farewell> farewell{};    ///< to be said before anything else
+  std::vector<Load> loads{};             ///< rising in time, falling in stops: each the most since it was
+  std::optional<TourRun> broken_tour{};  ///< broken off; it goes on where it stood when its members have their turn
 };
 
 /// Which exhibit comes next, and what becomes of each request (architecture 10.8; [Rhino1999] 4.3).
@@ -108,7 +110,8 @@ struct SchedulerState {
 /// of its stops at most one single exhibit is put in: an overdue one, or one with a small detour. A composed tour
 /// chooses each exhibit when the one before was explained, by travel times that were learned, so that it ends in time
 /// ([Minerva2000] 5.3); it rather shows what others have wished for, and only an overdue exhibit is put in. A tour for
-/// which the charge does not last is shortened. A tour that showed something ends with a farewell. Points on the map
+/// which the charge does not last is shortened. A tour that was broken off goes on where it stood, if anybody still
+/// follows it. A tour that showed something ends with a farewell. Points on the map
 /// and rooms are approached in the order in which they were wished for ([Minerva2000] 6.4): one has its turn when its
 /// request is the oldest. A tour that was voted for is the next to begin.
 class TourScheduler {
@@ -136,9 +139,12 @@ class TourScheduler {
   void suspend_visit(Time now);
   /// Somebody waits whose turn it may be, or a tour is under way.
   [[nodiscard]] bool is_anything_due(Time now) const { return state_.tour || oldest_due(now) != nullptr; }
-  /// Ends the visit and the tour under way for a reason that is not theirs. Their requests wait again, a tour begins
-  /// anew; after `max_attempts` they fail.
+  /// Ends the visit and the tour under way for a reason that is not theirs. Their requests wait again, and a tour goes
+  /// on at the stop at which it was; after `max_attempts` they fail.
   void break_off(const Reason& reason, Time now);
+  /// Nobody is near: the tour that was broken off is over for whoever asked for it in the hall, once they have been
+  /// away for `wait_for_group_s`. Whoever follows it on the Web is still there.
+  void let_go_broken_tour(Time now);
   /// [s] foreseen for the way.
   [[nodiscard]] double way_duration(Point2 from, Point2 to, Time now) const;
   [[nodiscard]] double way_length(Point2 from, Point2 to) const { return travel_(from, to); }  ///< [m]
@@ -177,6 +183,10 @@ class TourScheduler {
   /// Nothing of the tour under way was said yet. @pre a tour is under way.
   [[nodiscard]] bool is_at_its_beginning() const;
   [[nodiscard]] bool join_tour(const VisitorRequest& request);
+  /// Goes on with the tour that was broken off, if it is this one and somebody still waits for it. nullopt: it is not;
+  /// false: the rest is foreseen to take longer than `budget_s` [s]. @param members  who wait for the tour
+  [[nodiscard]] std::optional<bool> resume_tour(const std::string& tour_id, const std::vector<std::string>& members,
+                                                Point2 robot, Time now, double budget_s);
   void cancel(const VisitorRequest& request, Time now);
   void close_request(const std::string& id, RequestStatus status, const Reason& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,12 @@ struct Program {
   std::vector<CommandGroup> groups;  ///< by what somebody wants
   std::string other;                 ///< a program beside it, and
   std::vector<std::string> others;   ///< commands that only that one has
+  /// A call for each command, and for each part of one ("state check"), without the program's name: shown by --help.
+  std::map<std::string, std::string> examples{};
 };
 
+/// What may be given to an option, in plain words: "NUMBER from 0 to 1" for CLI11's "FLOAT:FLOAT in [0 - 1]".
+[[nodiscard]] std::string plain_type(const std::string& type);
 /// The names of its commands, in the order of its groups.
 [[nodiscard]] std::vector<std::string> names_of_commands(const Program& program);
 

@@ -15,11 +15,12 @@ namespace {
 class ProgramWithCommands : public ::testing::Test {
  protected:
   [[nodiscard]] Program program() {
-    const auto plain = [](const char* name, std::function<void()> callback) {
-      return [name, callback = std::move(callback)](CLI::App& app) {
+    const auto plain = [this](const char* name, std::function<void()> callback) {
+      return [this, name, callback = std::move(callback)](CLI::App& app) {
         CLI::App* command = app.add_subcommand(name, "a command");
         command->callback(callback);
         for (const char* option : {"--report", "--log"}) command->add_option(option)->check(output_file());
+        command->add_option("--crowd", crowd_)->check(CLI::IsMember({"quiet", "busy"}))->capture_default_str();
       };
     };
     return {.name = "guide",
@@ -33,7 +34,8 @@ class ProgramWithCommands : public ::testing::Test {
                                }),
                          plain("break", [] { throw std::runtime_error{"broken"}; })}}},
             .other = "guide-lab",
-            .others = {"measure"}};
+            .others = {"measure"},
+            .examples = {{"drive", "drive --report drive.json"}}};
   }
 
   struct Finished {
@@ -50,7 +52,19 @@ class ProgramWithCommands : public ::testing::Test {
   }
 
   int drives_ = 0;
+  std::string crowd_ = "quiet";
 };
+
+TEST_F(ProgramWithCommands, HelpEndsWithAnExample) {
+  const std::string help = run_with({"drive", "--help"}).out;
+  EXPECT_TRUE(help.find("Example:\n  guide drive --report drive.json\n") != std::string::npos) << help;
+}
+
+TEST_F(ProgramWithCommands, AWordOfAListIsToldFromThoseThatThereAre) {
+  const Finished finished = run_with({"drive", "--crowd", "busi"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_NE(finished.error.find("busi not in {quiet,busy}; did you mean 'busy'?"), std::string::npos) << finished.error;
+}
 
 TEST_F(ProgramWithCommands, RunsTheOneThatIsNamed) {
   EXPECT_EQ(names_of_commands(program()), (std::vector<std::string>{"drive", "refuse", "break"}));
@@ -98,6 +112,23 @@ TEST_F(ProgramWithCommands, NamesTheProgramThatHasTheCommand) {
   const Finished elsewhere = run_with({"measure", "--all"});
   EXPECT_EQ(elsewhere.code, 2);
   EXPECT_EQ(elsewhere.error, "guide: 'measure' is a command of guide-lab\n");
+}
+
+TEST(ProgramHelp, SaysTypesInPlainWords) {
+  EXPECT_EQ(plain_type("TEXT"), "TEXT");
+  EXPECT_EQ(plain_type("FLOAT"), "NUMBER");
+  EXPECT_EQ(plain_type("UINT"), "WHOLE NUMBER");
+  EXPECT_EQ(plain_type("FLOAT:POSITIVE"), "NUMBER above 0");
+  EXPECT_EQ(plain_type("FLOAT:FLOAT in [0 - 1]"), "NUMBER from 0 to 1");
+  EXPECT_EQ(plain_type("INT:INT in [1 - 65535]"), "WHOLE NUMBER from 1 to 65535");
+  EXPECT_EQ(plain_type("TEXT:{empty,quiet,busy,packed}"), "ONE OF empty, quiet, busy, packed");
+  EXPECT_EQ(plain_type("TEXT:FILE"), "FILE");
+  EXPECT_EQ(plain_type("UINT:SEED"), "SEED");
+}
+
+TEST_F(ProgramWithCommands, HelpTellsWhatHoldsWithoutAnOption) {
+  const std::string help = run_with({"drive", "--help"}).out;
+  EXPECT_NE(help.find("--crowd ONE OF quiet, busy (without: quiet)"), std::string::npos) << help;
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "docent/modules/host/module_host.h"
 #include "docent/modules/perception/localize_module.h"
 #include "docent/museum/blank_museum.h"
+#include "docent/museum/day_plan.h"
 #include "docent/recording/recorder.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/task_control/mission/mission_store.h"
@@ -136,7 +137,7 @@ class SimulationRun::Parts {
     if (mode != museum_.modes.end()) {
       limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
     } else if (options_.mode != "open" && options_.mode != "hours") {
-      return fail("--mode " + options_.mode + ": the museum has no such mode");
+      return fail("--mode " + options_.mode + ": the museum has no such mode" + museum::mode_meant(options_.mode));
     }
     if (options_.max_speed) limits.max_speed = std::min(config_.body().max_speed, *options_.max_speed);
     operator_bus_->publisher(topics::kLimits).publish(limits);

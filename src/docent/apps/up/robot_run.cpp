@@ -25,6 +25,7 @@
 #include "docent/base/shipped_files.h"
 #include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
+#include "docent/museum/day_plan.h"
 #include "docent/museum/editing/museum_setup.h"
 #include "docent/museum/editing/museum_workshop.h"
 #include "docent/recording/join_recordings.h"
@@ -87,7 +88,7 @@ Result<docent_msgs::Limits> limits_of(const RobotRun& options, const museum::Mus
   if (mode != museum.modes.end()) {
     limits.max_speed = std::min(limits.max_speed, mode->second.max_speed);
   } else if (limits.mode != "open" && limits.mode != "hours") {
-    return fail("--mode " + limits.mode + ": the museum has no such mode");
+    return fail("--mode " + limits.mode + ": the museum has no such mode" + museum::mode_meant(limits.mode));
   }
   return limits;
 }

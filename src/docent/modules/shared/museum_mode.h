@@ -6,6 +6,7 @@
 #include "docent/messages/calibration_messages.h"
 #include "docent/messages/operation_messages.h"
 #include "docent/modules/shared/module.h"
+#include "docent/museum/day_plan.h"
 #include "docent/vocabulary/vocabulary.h"
 
 namespace docent::modules {
@@ -29,6 +30,10 @@ class MuseumMode {
     return !limits_ || parse<OperatingMode>(limits_->mode) == OperatingMode::hours;
   }
   [[nodiscard]] std::string name(Time now) const;  ///< open, web, closed
+  /// What the museum's hours say next; nullopt: nothing, or the hours decide nothing now.
+  [[nodiscard]] std::optional<museum::NextMode> next(Time now) const {
+    return is_by_hours() ? museum::next_mode(museum_, minute_of_day(now)) : std::nullopt;
+  }
   [[nodiscard]] bool takes_requests() const { return !limits_ || limits_->is_open; }
   /// [m/s]; nullopt: nobody says one.
   [[nodiscard]] std::optional<double> max_speed(Time now) const;

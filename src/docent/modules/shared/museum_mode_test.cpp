@@ -48,6 +48,14 @@ TEST_F(MuseumModeTest, TheOperatorDecidesUntilTheySayHours) {
   EXPECT_FALSE(mode.takes_requests());
 }
 
+TEST_F(MuseumModeTest, SaysWhatComesNextWhileTheHoursDecide) {
+  MuseumMode mode = mode_from("18");
+  EXPECT_EQ(mode.next(at(0)), (museum::NextMode{"web", 18 * 60 + 30}));
+  EXPECT_EQ(mode.next(at(30)), (museum::NextMode{"open", 21 * 60 + 30}));
+  mode.limits({0.7, 1.0, "open", true});
+  EXPECT_EQ(mode.next(at(0)), std::nullopt) << "until somebody says hours, nothing comes by itself";
+}
+
 TEST_F(MuseumModeTest, OpeningHoursCloseTheRestOfTheDay) {
   museum.modes["open"].hours = {"09:00-17:00"};
   EXPECT_EQ(mode_from("10").name({}), "open");

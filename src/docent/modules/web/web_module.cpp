@@ -257,7 +257,15 @@ class WebModule final : public Module {
     });
   }
 
-  [[nodiscard]] telepresence::PresentHours hours() const { return {mode_.name(bus_.now()), mode_.takes_requests()}; }
+  [[nodiscard]] telepresence::PresentHours hours() const {
+    const Time now = bus_.now();
+    telepresence::PresentHours hours{mode_.name(now), mode_.takes_requests()};
+    if (const auto next = mode_.next(now)) {
+      hours.next_mode = next->mode;
+      hours.next_at = museum::clock_text(next->minute_of_day);
+    }
+    return hours;
+  }
 
   transport::Bus& bus_;
   const WebParams params_;

@@ -29,6 +29,7 @@ std::string Mission::visited_exhibit() const {
 }
 
 bool Mission::begin_visit(Time now) {
+  if (!has_company_) scheduler_.let_go_broken_tour(now);
   if (!scheduler_.begin_visit(position(), now, budget_s(now))) return false;
   must_charge_ = false;
   order_visit(now);
@@ -36,6 +37,7 @@ bool Mission::begin_visit(Time now) {
 }
 
 bool Mission::begin_visit_to(const std::string& exhibit_id, Time now) {
+  if (!has_company_) scheduler_.let_go_broken_tour(now);
   if (!scheduler_.begin_visit_to(exhibit_id, position(), now)) return false;
   must_charge_ = false;
   return true;

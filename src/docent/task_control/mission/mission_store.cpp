@@ -35,6 +35,42 @@ Pose2 pose_from(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), Angle::radians(json.at(2).get<double>())};
 }
 
+Json to_json(const TourRun& tour) {
+  Json stops = Json::array();
+  for (const TourStop& stop : tour.stops) {
+    stops.push_back({stop.exhibit_id, static_cast<int>(stop.status), stop.attempts, stop.number});
+  }
+  Json members = Json::array();
+  for (const TourMember& member : tour.members) members.push_back({member.request_id, member.stops});
+  return {{"id", tour.tour_id},
+          {"language", tour.language},
+          {"stops", stops},
+          {"members", members},
+          {"just_inserted", tour.just_inserted},
+          {"target_s", tour.target_s},
+          {"started", tour.started.nanoseconds},
+          {"asks", tour.asks}};
+}
+
+/// Throws nlohmann::json::exception when something is missing.
+TourRun tour_from(const Json& tour) {
+  TourRun run;
+  run.tour_id = tour.at("id").get<std::string>();
+  run.language = tour.at("language").get<std::string>();
+  run.just_inserted = tour.at("just_inserted").get<bool>();
+  run.target_s = tour.at("target_s").get<double>();
+  run.started = {tour.at("started").get<std::int64_t>()};
+  for (const Json& stop : tour.at("stops")) {
+    run.stops.push_back({stop.at(0).get<std::string>(),
+                         static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>(),
+                         stop.at(3).get<int>()});
+  }
+  for (const Json& member : tour.at("members"))
+    run.members.push_back({member.at(0).get<std::string>(), member.at(1).get<std::vector<int>>()});
+  run.asks = tour.value("asks", true);
+  return run;
+}
+
 Json plan_of(const MissionMemory& memory) {
   Json plan;
   plan["next_task"] = memory.next_task;
@@ -58,21 +94,10 @@ Json plan_of(const MissionMemory& memory) {
         {"language", visit->language},  {"tour", visit->tour_id},        {"is_joinable", visit->is_joinable},
         {"asks", visit->asks},          {"is_point", visit->is_point},   {"started", visit->started.nanoseconds}};
   }
-  if (const auto& tour = memory.schedule.tour) {
-    Json stops = Json::array();
-    for (const TourStop& stop : tour->stops) {
-      stops.push_back({stop.exhibit_id, static_cast<int>(stop.status), stop.attempts, stop.number});
-    }
-    Json members = Json::array();
-    for (const TourMember& member : tour->members) members.push_back({member.request_id, member.stops});
-    plan["tour"] = {{"id", tour->tour_id},
-                    {"language", tour->language},
-                    {"stops", stops},
-                    {"members", members},
-                    {"just_inserted", tour->just_inserted},
-                    {"target_s", tour->target_s},
-                    {"started", tour->started.nanoseconds},
-                    {"asks", tour->asks}};
+  if (const auto& tour = memory.schedule.tour) plan["tour"] = to_json(*tour);
+  if (const auto& broken = memory.schedule.broken_tour) {
+    plan["broken_tour"] = to_json(*broken);
+    plan["broken_tour"]["broken_off"] = broken->broken_off.nanoseconds;
   }
   Json loads = Json::array();
   for (const Load& load : memory.schedule.loads) loads.push_back({load.at.nanoseconds, load.stops});
@@ -111,23 +136,10 @@ void read_plan(const Json& plan, MissionMemory& memory, std::uint64_t& revision)
                                   visit.value("asks", true),
                                   visit.value("is_point", false)};
   }
-  if (plan.contains("tour")) {
-    const Json& tour = plan.at("tour");
-    TourRun run;
-    run.tour_id = tour.at("id").get<std::string>();
-    run.language = tour.at("language").get<std::string>();
-    run.just_inserted = tour.at("just_inserted").get<bool>();
-    run.target_s = tour.at("target_s").get<double>();
-    run.started = {tour.at("started").get<std::int64_t>()};
-    for (const Json& stop : tour.at("stops")) {
-      run.stops.push_back({stop.at(0).get<std::string>(),
-                           static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>(),
-                           stop.at(3).get<int>()});
-    }
-    for (const Json& member : tour.at("members"))
-      run.members.push_back({member.at(0).get<std::string>(), member.at(1).get<std::vector<int>>()});
-    run.asks = tour.value("asks", true);
-    memory.schedule.tour = std::move(run);
+  if (plan.contains("tour")) memory.schedule.tour = tour_from(plan.at("tour"));
+  if (plan.contains("broken_tour")) {
+    memory.schedule.broken_tour = tour_from(plan.at("broken_tour"));
+    memory.schedule.broken_tour->broken_off = {plan.at("broken_tour").at("broken_off").get<std::int64_t>()};
   }
   for (const Json& load : plan.value("loads", Json::array()))
     memory.schedule.loads.push_back({{load.at(0).get<std::int64_t>()}, load.at(1).get<int>()});

@@ -38,6 +38,8 @@ MissionMemory full_memory() {
   memory.schedule.visit = Visit{"sputnik", 2, {1.5, -2.5, Angle::radians(0.7)}, "de", "space", false, {99}};
   memory.schedule.tour = TourRun{"space", "de", {}, true, 360.0, {77}, {{"c", {0, 5}}}};
   memory.schedule.tour->stops = {{"a", StopStatus::explained, 1, 0}, {"b", StopStatus::pending, 2, 5}};
+  memory.schedule.broken_tour = memory.schedule.tour;
+  memory.schedule.broken_tour->broken_off = {99};
   memory.must_charge = true;
   memory.schedule.counters = {4, 5, 6};
   memory.schedule.visit->asks = false;
@@ -73,6 +75,9 @@ TEST_F(MissionStoreTest, GivesBackWhatWasSaved) {
   EXPECT_EQ(loaded->schedule.visit->viewpoint, 2);
   EXPECT_FALSE(loaded->schedule.visit->is_joinable);
   ASSERT_TRUE(loaded->schedule.tour);
+  ASSERT_TRUE(loaded->schedule.broken_tour);
+  EXPECT_EQ(loaded->schedule.broken_tour->stops.size(), 2U);
+  EXPECT_EQ(loaded->schedule.broken_tour->broken_off, (Time{99}));
   ASSERT_EQ(loaded->schedule.tour->stops.size(), 2U);
   EXPECT_EQ(loaded->schedule.tour->stops[0].status, StopStatus::explained);
   EXPECT_EQ(loaded->schedule.tour->stops[1].attempts, 2);

@@ -47,11 +47,11 @@ TEST_F(MissionTest, BreaksOffATourBetweenTwoExplanationsWithAWord) {
   EXPECT_EQ(status_of("t"), RequestStatus::queued);
   EXPECT_TRUE(happened(EventKind::tour_broken_off));
   battery(0.45, true);
-  EXPECT_EQ(mission->task().tour_id, "both") << "it begins anew";
-  EXPECT_EQ(mission->task().exhibit_id, "a");
+  EXPECT_EQ(mission->task().tour_id, "both") << "it goes on where it stood";
+  EXPECT_EQ(mission->task().exhibit_id, "b");
   battery(0.05);
   EXPECT_EQ(mission->task().kind, TaskKind::charge) << "under way to an exhibit it turns round at once";
-  EXPECT_EQ(mission->task().exhibit_id, "a");
+  EXPECT_EQ(mission->task().exhibit_id, "b");
   EXPECT_EQ(mission->memory().schedule.counters.tours_completed, 0U);
 }
 

@@ -18,6 +18,7 @@ Result<void> SchedulerParams::validate() const {
   if (max_stop_attempts < 1) return fail("mission.max_stop_attempts must be >= 1");
   if (!(max_detour_m >= 0.0)) return fail("mission.max_detour_m must be >= 0");
   if (max_skipped < 0) return fail("mission.max_skipped must be >= 0");
+  if (!(wait_for_group_s >= 0.0)) return fail("mission.wait_for_group_s must be >= 0");
   if (auto valid = travel_times.validate(); !valid) return valid;
   return composition.validate();
 }

@@ -23,8 +23,10 @@ struct SchedulerParams {
   int max_stop_attempts = 3;    ///< visits tried for a stop of a tour, >= 1
   double max_detour_m = 4.0;    ///< [m] >= 0: what a tour with a fixed order goes out of its way for a single exhibit
   int max_skipped = 1;          ///< exhibits that a fulfilled tour may have left out, >= 0
-  bool offer_more = true;       ///< ask at each exhibit, unless others wait for long: more, or next?
-  bool by_travel = true;        ///< false: crippled, for evaluation: single exhibits in the order in which they came
+  double wait_for_group_s =
+      120.0;               ///< [s] >= 0: a tour that was broken off is let go when nobody is near after so long
+  bool offer_more = true;  ///< ask at each exhibit, unless others wait for long: more, or next?
+  bool by_travel = true;   ///< false: crippled, for evaluation: single exhibits in the order in which they came
   TravelTimeParams travel_times;
   CompositionParams composition;
   template <class V>
@@ -41,6 +43,7 @@ struct SchedulerParams {
     v("max_stop_attempts", max_stop_attempts);
     v("max_detour_m", max_detour_m);
     v("max_skipped", max_skipped);
+    v("wait_for_group_s", wait_for_group_s);
     v("offer_more", offer_more);
     v("travel_times", travel_times);
     v("composition", composition);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ template <class Stop, class NameOf>
 [[nodiscard]] inline bool is_member(const TourRun& tour, const std::string& request_id) {
   return std::any_of(tour.members.begin(), tour.members.end(),
                      [&](const TourMember& member) { return member.request_id == request_id; });
+}
+
+/// Foreseen to take longer than it may [s]. Where no way is known, trying tells.
+[[nodiscard]] inline bool exceeds(double duration_s, double budget_s) {
+  return std::isfinite(duration_s) && duration_s > budget_s;
 }
 
 /// The next stop at the exhibit, but not the one with the number `except`.

@@ -196,6 +196,8 @@ void TourScheduler::break_off(const Reason& reason, Time now) {
     for (const TourMember& member : state_.tour->members) try_again(member.request_id, reason, now, now);
     happenings_.push_back(
         {EventKind::tour_broken_off, state_.tour->tour_id, reason.text(), to_seconds(now - state_.tour->started)});
+    state_.tour->broken_off = now;
+    state_.broken_tour = std::move(*state_.tour);
     state_.tour.reset();
   }
 }
@@ -283,6 +285,11 @@ std::vector<std::string> TourScheduler::agenda(Point2 robot, Time now) const {
     if (entry.status != RequestStatus::queued || entry.request.kind != RequestKind::tour) continue;
     if (holds(tours, entry.request.target)) continue;
     tours.push_back(entry.request.target);
+    if (state_.broken_tour && state_.broken_tour->tour_id == entry.request.target) {
+      for (const TourStop& stop : state_.broken_tour->stops)
+        if (stop.status == StopStatus::pending) list.push_back(stop.exhibit_id);
+      continue;
+    }
     const ProgrammeTour* tour = programme_.find_tour(entry.request.target);
     if (tour != nullptr) list.insert(list.end(), tour->exhibits.begin(), tour->exhibits.end());
   }

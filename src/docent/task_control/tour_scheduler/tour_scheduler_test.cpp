@@ -258,7 +258,7 @@ TEST_F(Scheduling, TriesWhatNoWayIsKnownToInsteadOfChargingForIt) {
   }
 }
 
-TEST_F(Scheduling, ATourThatIsBrokenOffIsGivenAnewAndFailsInTheEnd) {
+TEST_F(Scheduling, ATourThatIsBrokenOffTooOftenFailsInTheEnd) {
   wish("tour", RequestKind::tour, "t", 0);
   wish("single", RequestKind::exhibit, "e1", 0);
   EXPECT_EQ(next(1), "e1");

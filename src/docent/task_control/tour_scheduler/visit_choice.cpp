@@ -20,9 +20,6 @@ std::vector<int> numbers_of(const TourRun& tour) {
   return numbers;
 }
 
-/// Foreseen to take longer than it may. Where no way is known, trying tells.
-bool exceeds(double duration_s, double budget_s) { return std::isfinite(duration_s) && duration_s > budget_s; }
-
 }  // namespace
 
 bool TourScheduler::is_overdue(const BoardEntry& entry, Time now) const {
@@ -201,6 +198,12 @@ std::vector<std::string> TourScheduler::choices(Point2 robot, Time now) {
   std::vector<std::string> exhibits;
   if (oldest->request.kind == RequestKind::tour) {
     if (const ProgrammeTour* tour = programme_.find_tour(oldest->request.target)) exhibits = tour->exhibits;
+    if (state_.broken_tour && state_.broken_tour->tour_id == oldest->request.target &&
+        is_member(*state_.broken_tour, oldest->request.id)) {
+      exhibits.clear();
+      for (const TourStop& stop : state_.broken_tour->stops)
+        if (stop.status == StopStatus::pending) exhibits.push_back(stop.exhibit_id);
+    }
     if (exhibits.empty()) exhibits = first_stops(oldest->request, robot, now);
     std::erase_if(exhibits, [&](const std::string& id) { return programme_.find_exhibit(id) == nullptr; });
     exhibits.resize(std::min<std::size_t>(exhibits.size(), 1));
@@ -356,6 +359,7 @@ double TourScheduler::duration_of(const TourRun& tour, Point2 robot, Time now) c
 
 bool TourScheduler::begin_tour(const std::string& tour_id, Point2 robot, Time now, double budget_s) {
   const auto members = ids(RequestKind::tour, RequestStatus::queued, tour_id);
+  if (const auto resumed = resume_tour(tour_id, members, robot, now, budget_s)) return *resumed;
   const ProgrammeTour* tour = programme_.find_tour(tour_id);
   TourRun run{tour_id, state_.board.find(members.front())->request.language, {}, false, 0.0, now};
   if (tour != nullptr) {

@@ -228,7 +228,7 @@ std::map<std::string, std::string> contract_samples() {
       {"button.json", encode_button(kNow, 3)},
       {"board.json", board()},
       {"votes.json", encode_votes({"018f3a6c-5b2e-7c3d-9a4b-0123456789ab", {{"highlights", 3}, {"space", 1}}})},
-      {"hours.json", encode_hours("web", true)},
+      {"hours.json", encode_hours("web", true, "open", "21:30")},
       {"field.json", field()},
       {"maps.json", json_text(documents::MapsMessage{{0.5, 1.0, 0.15, 2, 1, base64({255, 1})},
                                                      {0.0, 0.0, 0.15, 1, 1, base64({255})}})},

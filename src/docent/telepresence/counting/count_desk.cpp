@@ -61,11 +61,26 @@ void CountDesk::see(const nav_msgs::Odometry& odometry) {
 
 void CountDesk::see(const docent_msgs::Event& event) {
   const auto kind = parse<EventKind>(event.kind);
-  if (kind == EventKind::tour_completed) counting_.robot[Counted::tours] += 1.0;
+  if (kind == EventKind::tour_started) is_first_stop_next_ = true;
+  if (kind == EventKind::tour_completed) {
+    counting_.robot[Counted::tours] += 1.0;
+    counting_.robot[Counted::last_stop] += people_at_stop_;
+  }
+  if (kind == EventKind::tour_failed) counting_.robot[Counted::tours_failed] += 1.0;
+  if (kind == EventKind::tour_broken_off) counting_.robot[Counted::tours_broken] += 1.0;
+  if (kind == EventKind::plan_inserted || kind == EventKind::plan_removed || kind == EventKind::plan_rescheduled ||
+      kind == EventKind::plan_shortened)
+    counting_.robot[Counted::plan_revisions] += 1.0;
   if (kind == EventKind::point_reached) counting_.robot[Counted::points] += 1.0;
   if (kind != EventKind::explained) return;
   counting_.robot[Counted::exhibits] += 1.0;
   counting_.robot[Counted::visitors] += people_near_;
+  if (!event.detail.empty()) count_stop_of_tour();  // the tour's id
+}
+
+void CountDesk::count_stop_of_tour() {
+  people_at_stop_ = people_near_;
+  if (std::exchange(is_first_stop_next_, false)) counting_.robot[Counted::first_stop] += people_near_;
 }
 
 void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {

@@ -45,6 +45,7 @@ class CountDesk {
     Counts robot;  ///< what is of the robot, should this gateway be the one that counts it
     std::set<std::string> addresses;
   };
+  void count_stop_of_tour();
   [[nodiscard]] Result<void> store(const Counting& counted, const std::string& mode, Time now);
   /// It was not stored: it is tried again with what comes.
   void take_back(Counting counted);
@@ -59,6 +60,8 @@ class CountDesk {
   std::optional<Time> moved_;             ///< stamp of the newest odometry
   std::optional<Pose2> odom_from_base_;
   double people_near_ = 0.0;
+  double people_at_stop_ = 0.0;     ///< at the newest stop of the tour under way
+  bool is_first_stop_next_ = true;  ///< of a tour
   std::string fault_;
 };
 

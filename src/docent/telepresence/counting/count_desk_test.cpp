@@ -93,6 +93,41 @@ TEST_F(CountDeskTest, CountsToursExhibitsAndThoseWhoStandRound) {
   EXPECT_EQ(counts.at(Counted::points), 1.0);
 }
 
+TEST_F(CountDeskTest, CountsWhoFollowsATourAndHowOftenItsPlanChanges) {
+  const auto people_near = [&](int count) {
+    docent_msgs::People people;
+    for (int i = 0; i < count; ++i) people.people.push_back({static_cast<std::uint32_t>(i), 1.0F, 1.0F, 0.0F, 0.0F});
+    desk_->see_people(people, Pose2{});
+  };
+  const auto explains = [&](int followers) {
+    people_near(followers);
+    docent_msgs::Event event;
+    event.kind = to_text(EventKind::explained);
+    event.detail = "highlights";
+    desk_->see(event);
+  };
+  happens(EventKind::tour_started);
+  explains(5);
+  happens(EventKind::plan_inserted);
+  people_near(9);
+  happens(EventKind::explained);  // put in for somebody else
+  explains(4);
+  happens(EventKind::plan_removed);
+  explains(3);
+  happens(EventKind::tour_completed);
+  happens(EventKind::tour_started);
+  explains(2);
+  happens(EventKind::tour_broken_off);
+  happens(EventKind::tour_failed);
+  desk_->store("open", now_);
+  const auto counts = day().counts;
+  EXPECT_EQ(counts.at(Counted::first_stop), 7.0);
+  EXPECT_EQ(counts.at(Counted::last_stop), 3.0);
+  EXPECT_EQ(counts.at(Counted::plan_revisions), 2.0);
+  EXPECT_EQ(counts.at(Counted::tours_broken), 1.0);
+  EXPECT_EQ(counts.at(Counted::tours_failed), 1.0);
+}
+
 TEST_F(CountDeskTest, CountsEachRequestOnceBySourceAndByItsEnd) {
   docent_msgs::RequestBoard board;
   board.requests = {request("old", RequestSource::web, RequestStatus::fulfilled, time_from_seconds(5)),

@@ -29,15 +29,21 @@ enum class Counted {
   visitor,
   staff,
   vote,
-  fulfilled,  ///< requests
-  failed,     ///< requests that were taken and not fulfilled
-  points,     ///< on the map that the robot reached
-  votes,      ///< for tours
+  fulfilled,       ///< requests
+  failed,          ///< requests that were taken and not fulfilled
+  points,          ///< on the map that the robot reached
+  votes,           ///< for tours
+  tours_failed,    ///< that showed too little
+  tours_broken,    ///< broken off for a charge; each may go on later
+  plan_revisions,  ///< stops that were put in, left out, put off, or cut for want of time
+  first_stop,      ///< people round the robot at the first stop of a tour
+  last_stop,       ///< and at the last one of a tour that was completed: who stayed
 };
 constexpr auto words_of(Counted) {
-  return std::array{"uptime_s", "travel_s",  "distance_m", "max_speed", "tours",   "exhibits",
-                    "visitors", "accesses",  "web",        "kiosk",     "visitor", "staff",
-                    "vote",     "fulfilled", "failed",     "points",    "votes"};
+  return std::array{"uptime_s",     "travel_s",       "distance_m", "max_speed", "tours",   "exhibits",
+                    "visitors",     "accesses",       "web",        "kiosk",     "visitor", "staff",
+                    "vote",         "fulfilled",      "failed",     "points",    "votes",   "tours_failed",
+                    "tours_broken", "plan_revisions", "first_stop", "last_stop"};
 }
 using Counts = std::map<Counted, double>;
 

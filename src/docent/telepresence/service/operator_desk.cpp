@@ -1,5 +1,6 @@
 #include "docent/telepresence/service/operator_desk.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "docent/messages/conversions.h"
@@ -13,8 +14,8 @@ constexpr Duration kLeaseLasts = std::chrono::seconds{2};  // without word from 
 
 }  // namespace
 
-OperatorDesk::OperatorDesk(RobotLink& robot, StopRegister& button, Note note)
-    : robot_{robot}, button_{button}, note_{std::move(note)} {}
+OperatorDesk::OperatorDesk(RobotLink& robot, StopRegister& button, Note note, std::map<std::string, double> mode_speeds)
+    : robot_{robot}, button_{button}, note_{std::move(note)}, mode_speeds_{std::move(mode_speeds)} {}
 
 bool OperatorDesk::take(const Caller& caller, const ClientMessage& message, Time now) {
   if (const auto* lease = std::get_if<LeaseMessage>(&message)) {
@@ -76,9 +77,31 @@ std::vector<OperatorDesk::Answer> OperatorDesk::answers(Time now) {
   return std::exchange(answers_, {});
 }
 
+std::optional<double> OperatorDesk::speed_in(const std::string& mode) const {
+  if (parse<OperatingMode>(mode) == OperatingMode::hours) {
+    std::optional<double> fastest;
+    for (const auto& [name, speed] : mode_speeds_) fastest = std::max(fastest.value_or(speed), speed);
+    return fastest;
+  }
+  const auto place = mode_speeds_.find(mode);
+  return place == mode_speeds_.end() ? std::nullopt : std::optional{place->second};
+}
+
+void OperatorDesk::see(const docent_msgs::Limits& limits) {
+  const bool is_own = limits_ && limits_->mode == limits.mode && limits_->max_speed == limits.max_speed;
+  if (!is_own) {  // what this desk has told comes back, too
+    const auto allowed = speed_in(limits.mode);
+    slower_ = !allowed || limits.max_speed < *allowed ? std::optional{limits.max_speed} : std::nullopt;
+  }
+  limits_ = limits;
+}
+
 Reason OperatorDesk::set_hours(const Caller& caller, OperatingMode mode) {
   docent_msgs::Limits limits = limits_.value_or(docent_msgs::Limits{});
   limits.mode = to_text(mode);
+  // Each mode has a pace of its own; whoever wanted the robot slower than its mode still does.
+  limits.max_speed = speed_in(limits.mode).value_or(limits.max_speed);
+  if (slower_) limits.max_speed = std::min(limits.max_speed, *slower_);
   limits_ = limits;
   robot_.tell(limits);
   note_(caller.name, "hours", limits.mode);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,13 +26,14 @@ class OperatorDesk {
   using Note = std::function<void(std::string who, std::string what, std::string about)>;
 
   /// The robot and the button outlive it. @param button  this process's copy of it
-  OperatorDesk(RobotLink& robot, StopRegister& button, Note note);
+  /// @param mode_speeds  [m/s] that the museum allows, by the name of the mode
+  OperatorDesk(RobotLink& robot, StopRegister& button, Note note, std::map<std::string, double> mode_speeds);
 
   /// @returns whether it was an operator's message; its answer is among the next `answers`
   [[nodiscard]] bool take(const Caller& caller, const ClientMessage& message, Time now);
   void left(const Caller& caller, Time now);
   /// As somebody said them.
-  void see(const docent_msgs::Limits& limits) { limits_ = limits; }
+  void see(const docent_msgs::Limits& limits);
   /// Ten times a second: steers as whoever holds the lease wishes, and ends it when they are silent.
   void steer_on(Time now);
   [[nodiscard]] documents::OperationMessage document() const;
@@ -62,13 +64,18 @@ class OperatorDesk {
   [[nodiscard]] Reason steer(const Caller& caller, const SteerMessage& wish, Time now);
   void stop(const Caller& caller, const StopMessage& wish, Time now);
   [[nodiscard]] Reason set_hours(const Caller& caller, OperatingMode mode);
+  /// [m/s] what the museum allows in the mode; where its hours decide, in the fastest of them, for then each is held to
+  /// its own. nullopt: the museum says nothing.
+  [[nodiscard]] std::optional<double> speed_in(const std::string& mode) const;
   void release(Time now);
 
   RobotLink& robot_;
   StopRegister& button_;
   const Note note_;
+  const std::map<std::string, double> mode_speeds_;  ///< [m/s]
   std::optional<Lease> lease_;
   std::optional<docent_msgs::Limits> limits_;  ///< as somebody said them last
+  std::optional<double> slower_;               ///< [m/s] that somebody set below what their mode allows
   std::vector<Unconfirmed> unconfirmed_;
   std::vector<Answer> answers_;
 };

@@ -39,10 +39,12 @@ class OperatorDeskTest : public testing::Test {
   RobotEar robot_;
   std::vector<std::string> notes_;
   StopRegister button_{"web", {}, now_};
-  OperatorDesk desk_{robot_, button_,
+  OperatorDesk desk_{robot_,
+                     button_,
                      [this](const std::string& who, const std::string& what, const std::string& about) {
                        notes_.push_back(who + " " + what + " " + about);
-                     }};
+                     },
+                     {{"open", 0.7}, {"web", 0.4}, {"closed", 1.63}}};
 };
 
 TEST_F(OperatorDeskTest, NobodySteersWithoutTheLease) {
@@ -142,6 +144,36 @@ TEST_F(OperatorDeskTest, HoursAreSaidAndTheOtherLimitsStay) {
   EXPECT_EQ(robot_.limits[0].mode, "web");
   EXPECT_EQ(robot_.limits[0].max_speed, 0.4);
   EXPECT_EQ(desk_.document().hours, "web");
+}
+
+TEST_F(OperatorDeskTest, EachModeHasThePaceThatTheMuseumGivesIt) {
+  docent_msgs::Limits limits;
+  limits.mode = "open";
+  limits.max_speed = 0.7;
+  desk_.see(limits);
+  const auto pace_in = [&](OperatingMode mode) {
+    EXPECT_EQ(take(ada_, SetHoursMessage{"id", mode}), Reason{});
+    desk_.see(robot_.limits.back());  // it hears what it says
+    return robot_.limits.back().max_speed;
+  };
+  EXPECT_EQ(pace_in(OperatingMode::web), 0.4);
+  EXPECT_EQ(pace_in(OperatingMode::closed), 1.63);
+  EXPECT_EQ(pace_in(OperatingMode::open), 0.7);
+  EXPECT_EQ(pace_in(OperatingMode::hours), 1.63) << "the mode that holds then limits it";
+  EXPECT_EQ(pace_in(OperatingMode::web), 0.4);
+}
+
+TEST_F(OperatorDeskTest, WhoWantedItSlowerThanItsModeStillDoes) {
+  docent_msgs::Limits limits;
+  limits.mode = "open";
+  limits.max_speed = 0.5;
+  desk_.see(limits);
+  for (const auto& [mode, pace] : {std::pair{OperatingMode::closed, 0.5}, std::pair{OperatingMode::web, 0.4},
+                                   std::pair{OperatingMode::open, 0.5}}) {
+    EXPECT_EQ(take(ada_, SetHoursMessage{"id", mode}), Reason{});
+    desk_.see(robot_.limits.back());
+    EXPECT_EQ(robot_.limits.back().max_speed, pace) << to_text(mode);
+  }
 }
 
 TEST_F(OperatorDeskTest, LeavesWhatIsNoOperatorsToOthers) { EXPECT_FALSE(desk_.take(ada_, RequestMessage{}, now_)); }

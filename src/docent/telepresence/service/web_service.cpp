@@ -31,6 +31,13 @@ RequestSource source_of(Role role) {
   return RequestSource::web;
 }
 
+/// [m/s] by the name of the mode.
+std::map<std::string, double> speeds_of(const museum::Museum& museum) {
+  std::map<std::string, double> speeds;
+  for (const auto& [name, mode] : museum.modes) speeds[name] = mode.max_speed;
+  return speeds;
+}
+
 }  // namespace
 
 WebService::WebService(WebServiceParts parts, const museum::Museum& museum, RobotLink& robot, StopRegister& button,
@@ -52,7 +59,7 @@ WebService::WebService(WebServiceParts parts, const museum::Museum& museum, Robo
              museum,     std::move(parts.store.votes),
              parts.seed, [this](std::string text) { viewers_.show(slots::kVotes, std::move(text)); },
              now},
-      operator_{robot, button, std::move(parts.note)},
+      operator_{robot, button, std::move(parts.note), speeds_of(museum)},
       counts_{queue_, std::move(parts.store.statistics), std::move(parts.gateway), now},
       backups_{std::move(parts.backups)} {}
 
@@ -171,7 +178,7 @@ void WebService::press(int number, Time now) {
 
 void WebService::look(const PresentHours& hours, std::size_t viewers, Time now) {
   viewers_.show(slots::kHealth, health_.show(viewers, now));
-  show_if_new(Kept::hours, slots::kHours, encode_hours(hours.mode, hours.is_open));
+  show_if_new(Kept::hours, slots::kHours, encode_hours(hours.mode, hours.is_open, hours.next_mode, hours.next_at));
   votes_.look(now);
   screen_.look(now);
   wishes_.look(now);

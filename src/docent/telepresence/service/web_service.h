@@ -30,6 +30,8 @@ namespace docent::telepresence {
 struct PresentHours {
   std::string mode;  ///< open, web, closed
   bool is_open = true;
+  std::string next_mode{};  ///< comes next by itself; empty: none does
+  std::string next_at{};    ///< "HH:MM" by the museum's clock
 };
 
 /// The horn's sound, as pages fetch it.

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "docent/museum/museum.h"
+
+namespace docent::museum {
+
+/// A mode that begins by itself.
+struct NextMode {
+  std::string mode;       ///< open, web, closed
+  int minute_of_day = 0;  ///< at which it begins, 0..1439
+  friend bool operator==(const NextMode&, const NextMode&) = default;
+};
+
+/// What comes after the mode that the museum's hours say now; nullopt: they say the same all day.
+/// @param minute_of_day  0..1439
+[[nodiscard]] std::optional<NextMode> next_mode(const Museum& museum, int minute_of_day);
+
+/// "; did you mean 'open'?" for a misspelt mode or `hours`; "": for any other word.
+[[nodiscard]] std::string mode_meant(const std::string& word);
+
+/// "HH:MM".
+[[nodiscard]] std::string clock_text(int minute_of_day);
+
+}  // namespace docent::museum
