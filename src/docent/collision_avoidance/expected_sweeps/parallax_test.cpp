@@ -18,10 +18,10 @@ class ParallaxTest : public ::testing::Test {
     room.box(-2, -3, 4, 3.5);
     room.discs = {{{1.5, 1.0}, 0.25}, {{2.0, -1.2}, 0.15}};
   }
-  SweepView view(const Pose2& at, double scale, double offset) {
-    SensorSweep sweep = room.sweep(time += 0.1, at);
+  SweepView view(const Pose2& place, double scale, double offset) {
+    SensorSweep sweep = room.sweep(time += 0.1, place);
     for (float& range : sweep.ranges) range = static_cast<float>(scale * static_cast<double>(range) + offset);
-    return view_of(sweep, at);
+    return view_of(sweep, place);
   }
   std::optional<ParallaxOffset> seen(double offset, const Pose2& moved, const Pose2& said, double scale = 1.0) {
     const Pose2 from{-1.0, 0.2, Angle::degrees(10)};
@@ -68,7 +68,9 @@ TEST_F(ParallaxTest, ATurnOnTheSpotTellsNothing) {
   for (const double offset : {0.0, 0.5}) {
     const Pose2 turned{0.0, 0.0, Angle::degrees(20)};
     const auto found = seen(offset, turned, turned);
-    if (found) EXPECT_GE(found->error, 0.15) << offset;
+    if (found) {
+      EXPECT_GE(found->error, 0.15) << offset;
+    }
   }
 }
 
