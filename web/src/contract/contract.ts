@@ -952,7 +952,9 @@ export const documents = {
   "HoursMessage": {
     "fields": {
       "is_open": "boolean",
-      "mode": "string"
+      "mode": "string",
+      "next_at": "string",
+      "next_mode": "string"
     },
     "maybe": {},
     "type": "hours"
