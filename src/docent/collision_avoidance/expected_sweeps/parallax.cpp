@@ -184,7 +184,7 @@ ParallaxCheck::Finding ParallaxCheck::judge() {
     scatter += weight_of(pair) * off * off / (static_cast<double>(pairs_.size()) - 1.0);
     if (std::abs(off) <= params_.same + 2.0 * error_of(pair)) agreeing += weight_of(pair);
   }
-  if (agreeing < params_.agree * weights) return Finding::nothing;
+  if (agreeing < params_.agree * weights || scatter > params_.most_scatter) return Finding::nothing;
   const double error = params_.sure * std::hypot(params_.least_error, std::sqrt(std::max(1.0, scatter) / weights));
   if (std::abs(offset_) <= params_.in_order)
     return error <= params_.least_offset ? Finding::in_order : Finding::nothing;

@@ -54,6 +54,7 @@ struct ParallaxCheckParams {
   int most_pairs = 20;        ///< the last ones
   double same = 0.15;         ///< [m] a pair agrees with all, besides its error,
   double agree = 0.75;        ///< of the weight must
+  double most_scatter = 3.0;  ///< of the pairs about their mean, in squares of their errors: people walk by
   double sure = 4.0;          ///< standard deviations
   double least_offset = 0.3;  ///< [m] a smaller one is for walls, the sweep before and the map
   double in_order = 0.12;     ///< [m] at most, of a scanner in order
