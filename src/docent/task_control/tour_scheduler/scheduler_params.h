@@ -23,8 +23,8 @@ struct SchedulerParams {
   int max_stop_attempts = 3;    ///< visits tried for a stop of a tour, >= 1
   double max_detour_m = 4.0;    ///< [m] >= 0: what a tour with a fixed order goes out of its way for a single exhibit
   int max_skipped = 1;          ///< exhibits that a fulfilled tour may have left out, >= 0
-  double wait_for_group_s =
-      120.0;               ///< [s] >= 0: a tour that was broken off is let go when nobody is near after so long
+  /// [s] >= 0: a tour that was broken off is let go when nobody is near after so long
+  double wait_for_group_s = 120.0;
   bool offer_more = true;  ///< ask at each exhibit, unless others wait for long: more, or next?
   bool by_travel = true;   ///< false: crippled, for evaluation: single exhibits in the order in which they came
   TravelTimeParams travel_times;
