@@ -22,15 +22,18 @@ class MapImage {
   /// The next row. @param shades  [width], each 0 (black) to white(), or kClear
   [[nodiscard]] virtual Result<void> read_row(std::vector<std::uint32_t>& shades) = 0;
 
-  [[nodiscard]] long width() const { return width_; }              ///< [pixels]
-  [[nodiscard]] long height() const { return height_; }            ///< [pixels]
-  [[nodiscard]] std::uint32_t white() const { return white_; }     ///< the lightest shade
-  [[nodiscard]] const std::string& note() const { return note_; }  ///< what is odd in the file; empty: nothing
+  [[nodiscard]] long width() const { return header.width; }              ///< [pixels]
+  [[nodiscard]] long height() const { return header.height; }            ///< [pixels]
+  [[nodiscard]] std::uint32_t white() const { return header.white; }     ///< the lightest shade
+  [[nodiscard]] const std::string& note() const { return header.note; }  ///< what is odd in the file; empty: nothing
 
  protected:
-  long width_ = 0, height_ = 0;
-  std::uint32_t white_ = 255;
-  std::string note_;
+  /// What the file says of all rows; whoever opens it fills it in.
+  struct Header {
+    long width = 0, height = 0;
+    std::uint32_t white = 255;
+    std::string note;
+  } header;
 };
 
 /// Opens a PGM (P2, P5) or PNG image, by its content. Faults name file and line, and say of other kinds of images which

@@ -21,14 +21,14 @@ class PgmImage final : public MapImage {
     take();
     is_text_ = take() == '2';
     long white = 0;
-    for (long* number : {&width_, &height_, &white})
+    for (long* number : {&header.width, &header.height, &white})
       if (!read_number(*number)) return fault("not a PGM image: expected a number in the header");
-    if (width_ <= 0 || height_ <= 0 || width_ > kMostOnASide || height_ > kMostOnASide)
-      return fault("PGM of " + std::to_string(width_) + " x " + std::to_string(height_) + " pixels");
+    if (header.width <= 0 || header.height <= 0 || header.width > kMostOnASide || header.height > kMostOnASide)
+      return fault("PGM of " + std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels");
     if (white <= 0 || white > 65535) return fault("PGM with a white of " + std::to_string(white));
-    white_ = static_cast<std::uint32_t>(white);
+    header.white = static_cast<std::uint32_t>(white);
     sample_ = white > 255 ? 2 : 1;
-    const auto count = static_cast<std::uintmax_t>(width_) * static_cast<std::uintmax_t>(height_);
+    const auto count = static_cast<std::uintmax_t>(header.width) * static_cast<std::uintmax_t>(header.height);
     if (is_text_) {
       if (rest() < count) return fault("PGM ends early");
       return {};
@@ -45,21 +45,21 @@ class PgmImage final : public MapImage {
                    std::to_string(rest()) + " found");
     const std::uintmax_t more = rest() - wanted;
     if (more > 2)  // a line end is nothing to speak of
-      note_ = "the file is " + std::to_string(more) + " bytes longer than its header says; they are left out";
+      header.note = "the file is " + std::to_string(more) + " bytes longer than its header says; they are left out";
     return {};
   }
 
   Result<void> read_row(std::vector<std::uint32_t>& shades) override {
-    shades.resize(static_cast<std::size_t>(width_));
+    shades.resize(static_cast<std::size_t>(header.width));
     if (is_text_) {
       for (auto& shade : shades) {
         long number = 0;
-        if (!read_number(number) || number > static_cast<long>(white_))
+        if (!read_number(number) || number > static_cast<long>(header.white))
           return fault("PGM ends early or holds a value above its white");
         shade = static_cast<std::uint32_t>(number);
       }
-      if (long number = 0; ++rows_ == height_ && read_number(number))
-        note_ = "the file holds more pixels than its header says; they are left out";
+      if (long number = 0; ++rows_ == header.height && read_number(number))
+        header.note = "the file holds more pixels than its header says; they are left out";
       return {};
     }
     row_.resize(shades.size() * sample_);
@@ -67,9 +67,9 @@ class PgmImage final : public MapImage {
     const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(row_[k])); };
     for (std::size_t i = 0; i < shades.size(); ++i) {
       shades[i] = sample_ == 1 ? byte(i) : byte(2 * i) << 8U | byte(2 * i + 1);
-      if (shades[i] > white_)
+      if (shades[i] > header.white)
         return fault("PGM holds a value above its white: " + std::to_string(shades[i]) + " where white is " +
-                     std::to_string(white_));
+                     std::to_string(header.white));
     }
     return {};
   }
@@ -100,7 +100,7 @@ class PgmImage final : public MapImage {
     file_.clear();
     const bool is_header = count == most && !ends_in_white_space();
     if (count == most && !is_header)
-      note_ = "its header may end in more than one white space: if all is shifted by a pixel, save it anew";
+      header.note = "its header may end in more than one white space: if all is shifted by a pixel, save it anew";
     if (is_header) return;
     file_.seekg(here);
     at_ -= count;

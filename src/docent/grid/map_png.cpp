@@ -31,10 +31,11 @@ class PngImage final : public MapImage {
     const bool is_interlaced = passes_ > 1;
     if (is_interlaced) {
       constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
-      if (bytes_of_row_ > kMostBytes / static_cast<std::size_t>(height_))
+      if (bytes_of_row_ > kMostBytes / static_cast<std::size_t>(header.height))
         return fail(name_ + ":1: an interlaced PNG image of this size; save it without interlacing");
-      whole_.resize(bytes_of_row_ * static_cast<std::size_t>(height_));
-      for (long row = 0; row < height_; ++row) rows_.push_back(&whole_[bytes_of_row_ * static_cast<std::size_t>(row)]);
+      whole_.resize(bytes_of_row_ * static_cast<std::size_t>(header.height));
+      for (long row = 0; row < header.height; ++row)
+        rows_.push_back(&whole_[bytes_of_row_ * static_cast<std::size_t>(row)]);
       if (!read_whole()) return fail(name_ + ":1: damaged PNG image: " + message_);
     }
     return {};
@@ -43,7 +44,7 @@ class PngImage final : public MapImage {
   Result<void> read_row(std::vector<std::uint32_t>& shades) override {
     if (rows_.empty() && !read_next()) return fail(name_ + ":1: damaged PNG image: " + message_);
     const unsigned char* from = rows_.empty() ? row_.data() : rows_[static_cast<std::size_t>(next_++)];
-    shades.resize(static_cast<std::size_t>(width_));
+    shades.resize(static_cast<std::size_t>(header.width));
     if (is_by_palette_) {
       for (auto& shade : shades) {
         if (*from >= colours_) return fail(name_ + ":1: damaged PNG image: a colour that its palette has not");
@@ -81,12 +82,12 @@ class PngImage final : public MapImage {
       png_set_expand(png_);  // 1 to 4 bits to 8 and to full white, a clear colour to alpha
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
-    width_ = static_cast<long>(png_get_image_width(png_, info_));
-    height_ = static_cast<long>(png_get_image_height(png_, info_));
+    header.width = static_cast<long>(png_get_image_width(png_, info_));
+    header.height = static_cast<long>(png_get_image_height(png_, info_));
     depth_ = png_get_bit_depth(png_, info_);
     channels_ = png_get_channels(png_, info_);
     bytes_of_row_ = png_get_rowbytes(png_, info_);
-    white_ = (depth_ == 16 ? 65535U : 255U) * (channels_ >= 3 || is_by_palette_ ? 3U : 1U);
+    header.white = (depth_ == 16 ? 65535U : 255U) * (channels_ >= 3 || is_by_palette_ ? 3U : 1U);
     png_colorp colours = nullptr;
     png_bytep alphas = nullptr;
     int count = 0, clear = 0;

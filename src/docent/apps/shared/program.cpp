@@ -25,7 +25,7 @@ std::string plain_word(const std::string& word) {
 class PlainHelp final : public CLI::Formatter {
  public:
   [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string text = CLI::Formatter::make_option_opts(option);
+    std::string text = CLI::Formatter::make_option_opts(option);
     const std::string type = option->get_type_name();
     if (type.empty() || !text.starts_with(" " + type)) return text;
     std::string rest = text.substr(1 + type.size());
@@ -94,7 +94,7 @@ std::string plain_type(const std::string& type) {
   const auto colon = type.find(':');
   if (colon == std::string::npos) return plain_word(type);
   const std::string word = plain_word(type.substr(0, colon));
-  const std::string tail = type.substr(colon + 1);
+  std::string tail = type.substr(colon + 1);
   if (tail == "POSITIVE") return word + " above 0";
   if (tail.starts_with("{") && tail.ends_with("}")) {
     std::string text = "ONE OF ";
