@@ -46,7 +46,7 @@ inline constexpr double kRoughBearing = 2e-5;
   double turn = rough_bearing(in_sensor) - first_bearing;
   if (turn < before) turn += kTurn;
   if (turn >= before && turn < kTurn + before - kRoughBearing) {
-    const auto nearest = static_cast<long>(turn / bearing_step + 0.5);
+    const auto nearest = static_cast<long>((turn - before) / bearing_step);
     if (std::abs(turn - static_cast<double>(nearest) * bearing_step) < -before - kRoughBearing) return nearest;
   }
   turn = Angle::radians(std::atan2(in_sensor.y, in_sensor.x) - first_bearing).radians();

@@ -20,12 +20,12 @@ BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSwee
 
 }  // namespace
 
-ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
+ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map,
                            const ScannerWatchParams& params)
     : name_{std::move(name)},
       limits_{limits},
       params_{params},
-      map_{std::move(map), params.map},
+      map_{map, params.map},
       motion_{params.motion},
       repeats_{params.repeats},
       old_{params.old},

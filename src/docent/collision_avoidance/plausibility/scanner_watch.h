@@ -85,7 +85,7 @@ struct ScannerWatchParams {
 class ScannerWatch {
  public:
   /// @param name  for a person: "front laser" @param map  null: there is none
-  ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const OccupancyGrid> map,
+  ScannerWatch(std::string name, const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map,
                const ScannerWatchParams& params = {});
 
   /// What a scanner says of the last moments to the others: who is carried off is so with all of them.

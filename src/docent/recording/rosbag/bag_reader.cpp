@@ -41,7 +41,7 @@ Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector
   std::vector<std::uint8_t> unpacked;
   McapReader::Selection all;
   all.skip_damaged = true;
-  const auto read = reader->read(all, [&](const McapMessage& message) {
+  auto read = reader->read(all, [&](const McapMessage& message) {
     const McapChannel& channel = message.channel;
     if (channel.encoding == "cdr" || channel.encoding.empty())
       return handler({channel.topic, channel.type, message.log_time, plain(message.data, unpacked)});
@@ -87,7 +87,7 @@ Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std:
     const Scratch scratch;
     if (scratch.path().empty()) return fail(path.string() + ": no folder to unpack it in");
     const fs::path unpacked = scratch.path() / path.stem();
-    const auto whole = unpack_zstd_file(path, unpacked);
+    auto whole = unpack_zstd_file(path, unpacked);
     if (!whole && (!fs::exists(unpacked) || fs::file_size(unpacked) == 0)) return whole;
     if (!whole) notes.push_back(whole.error().message + ": what came before is used");
     return read_file_of_bag(unpacked, handler, notes);

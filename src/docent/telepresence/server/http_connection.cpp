@@ -85,7 +85,7 @@ bool HttpConnection::understand_call() {
   auto& request = parser_->get();
   called_ = as_called({last_of(request, "X-Forwarded-For"), last_of(request, "X-Forwarded-Host"),
                        last_of(request, "X-Forwarded-Proto"), last_of(request, "X-Forwarded-Prefix")},
-                      is_proxy(peer()), peer(), view_of(request[http::field::host]));
+                      is_proxy(peer_), peer_, view_of(request[http::field::host]));
   const auto below = below_prefix(view_of(request.target()), owner_.prefix);
   if (!below) return true;
   if (below->empty()) return false;
@@ -127,18 +127,12 @@ void HttpConnection::complain(beast::error_code error) {
   }
 }
 
-std::string HttpConnection::peer() const {
-  beast::error_code error;
-  const auto peer = stream_.socket().remote_endpoint(error);
-  return error ? "" : peer.address().to_string();
-}
-
 bool HttpConnection::is_proxy(const std::string& address) const {
   return std::find(owner_.proxies.begin(), owner_.proxies.end(), address) != owner_.proxies.end();
 }
 
 bool HttpConnection::is_called_rightly(const HttpRequest& request) const {
-  return owner_.hosts.is_ours(view_of(request[http::field::host])) || is_proxy(peer());
+  return owner_.hosts.is_ours(view_of(request[http::field::host])) || is_proxy(peer_);
 }
 
 Opening HttpConnection::opening_of(const HttpRequest& request) const {
@@ -182,11 +176,11 @@ void HttpConnection::serve() {
   HttpRequest request = parser_->release();
   const Route route =
       owner_.route({view_of(request.method_string()), view_of(request.target()), beast::websocket::is_upgrade(request),
-                    opening_of(request), is_local(request) || (owner_.shows_foxglove_to_proxies && is_proxy(peer()))});
+                    opening_of(request), is_local(request) || (owner_.shows_foxglove_to_proxies && is_proxy(peer_))});
   if (const auto* live = std::get_if<OpenLive>(&route)) {
     stream_.expires_never();
     const std::string address = called_.address;
-    const bool is_forwarded = !place_ && address != peer();
+    const bool is_forwarded = !place_ && address != peer_;
     if (is_forwarded && live->role == Role::visitor && !(place_ = owner_.take_place(address)))
       return send(refusal(429, "too many connections from there\n"), false, false);
     return owner_.open_live(stream_.release_socket(), std::move(request),
@@ -210,9 +204,7 @@ void HttpConnection::serve() {
 }
 
 bool HttpConnection::is_local(const HttpRequest& request) const {
-  beast::error_code error;
-  const auto peer = stream_.socket().remote_endpoint(error);
-  if (error || !peer.address().is_loopback()) return false;
+  if (!is_peer_here_) return false;
   for (const char* header : {"Forwarded", "X-Forwarded-For", "X-Forwarded-Host", "X-Forwarded-Proto",
                              "X-Forwarded-Prefix", "X-Real-IP", "Via"})
     if (request.find(header) != request.end()) return false;

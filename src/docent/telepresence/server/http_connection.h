@@ -58,6 +58,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   HttpConnection(HttpOwner& owner, boost::asio::ip::tcp::socket socket, std::shared_ptr<Place> place)
       : owner_{owner}, stream_{std::move(socket)}, place_{std::move(place)} {
     ++*owner_.connections;
+    boost::beast::error_code error;
+    const auto peer = stream_.socket().remote_endpoint(error);
+    if (error) return;
+    peer_ = peer.address().to_string();
+    is_peer_here_ = peer.address().is_loopback();
   }
   ~HttpConnection() { --*owner_.connections; }
   HttpConnection(const HttpConnection&) = delete;
@@ -91,11 +96,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   template <class Answer, class Then>
   auto when_answered(Then then);
   [[nodiscard]] Opening opening_of(const HttpRequest& request) const;
-  /// The other end is a program of this computer; a proxy says for whom it speaks.
-  [[nodiscard]] std::string peer() const;
   [[nodiscard]] bool is_proxy(const std::string& address) const;
   /// Called by a name of ours, or by a proxy of ours, which knows its own.
   [[nodiscard]] bool is_called_rightly(const HttpRequest& request) const;
+  /// The other end is a program of this computer; a proxy says for whom it speaks.
   [[nodiscard]] bool is_local(const HttpRequest& request) const;
   void send(const HttpAnswer& answer, bool keep_alive, bool takes_gzip);
   void send(ApiReply reply, bool keep_alive);
@@ -106,6 +110,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   HttpOwner& owner_;
   boost::beast::tcp_stream stream_;
   std::shared_ptr<Place> place_;
+  std::string peer_;           ///< address of the other end; empty: it had gone at once
+  bool is_peer_here_ = false;  ///< it is on this computer
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> parser_;
   AsCalled called_;  ///< of the request that is being answered
