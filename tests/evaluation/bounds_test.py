@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The bounds that scripts/evaluate prints beside zeros, and what it counts among people with legs."""
 import sys
 import tempfile

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What the protocol of starts must not let pass: robots that believe a wrong start, and bins of P(lost) that say something else than it."""
 import sys
 import tempfile

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What the protocols of scripts/evaluate must not let pass: idle robots, empty worlds, missing rows, other configurations."""
 import json
 import os
