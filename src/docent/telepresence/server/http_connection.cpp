@@ -83,9 +83,12 @@ void HttpConnection::look_at_header() {
 
 bool HttpConnection::understand_call() {
   auto& request = parser_->get();
-  called_ = as_called({last_of(request, "X-Forwarded-For"), last_of(request, "X-Forwarded-Host"),
-                       last_of(request, "X-Forwarded-Proto"), last_of(request, "X-Forwarded-Prefix")},
-                      is_proxy(peer_), peer_, view_of(request[http::field::host]));
+  const bool is_believed = is_proxy(peer_);
+  ForwardedHeaders said;
+  if (is_believed)
+    said = {last_of(request, "X-Forwarded-For"), last_of(request, "X-Forwarded-Host"),
+            last_of(request, "X-Forwarded-Proto"), last_of(request, "X-Forwarded-Prefix")};
+  called_ = as_called(said, is_believed, peer_, view_of(request[http::field::host]));
   const auto below = below_prefix(view_of(request.target()), owner_.prefix);
   if (!below) return true;
   if (below->empty()) return false;
@@ -110,6 +113,7 @@ void HttpConnection::read_large_body() {
 }
 
 void HttpConnection::read_body() {
+  if (parser_->is_done()) return serve();  // most requests have none
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return self->complain(error);
     self->serve();
