@@ -31,6 +31,23 @@ TEST(FreeMemory, KnowsWhoCameFromWhatStood) {
   EXPECT_FALSE(memory.has_come({8.0, 8.0})) << "never seen";
 }
 
+TEST(FreeMemory, LeavesNoHoleBetweenTheBeamsOfAnEmptyHall) {
+  for (const double away : {0.8, 1.3, 2.0, 2.6}) {
+    for (int i = 0; i < 40; ++i) {
+      FreeMemory memory;
+      Scene hall;
+      hall.add_disc({0.9, 0.0}, 0.1);  // its neighbours must not count on the short beams that end there
+      hall.add_wall({5.6, -6.0}, {5.6, 6.0});
+      watch(memory, hall, 0.0, 0.5);
+      const Point2 place = away * unit(Angle::degrees(25.0 + 310.0 * i / 39.0));
+      Scene after = hall;
+      after.add_disc(place, 0.2);
+      watch(memory, after, 0.5, 1.0);
+      EXPECT_TRUE(memory.has_come((1.0 - 0.2 / away) * place)) << away << " m, " << i;
+    }
+  }
+}
+
 TEST(FreeMemory, ForgetsAfterAWhile) {
   FreeMemory memory;
   watch(memory, Scene{}, 0.0, 1.0);
