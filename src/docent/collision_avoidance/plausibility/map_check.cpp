@@ -63,13 +63,23 @@ bool MapCheck::is_wrong_place(const SweepView& view, const Pose2& map_from_senso
   return false;
 }
 
+bool MapCheck::is_expected_from(const SweepView& view, const Pose2& map_from_sensor) const {
+  const Pose2 moved = inverse(expected_of_.map_from_sensor) * map_from_sensor;
+  return expected_.size() == view.ranges.size() && expected_of_.first_bearing == view.first_bearing &&
+         expected_of_.bearing_step == view.bearing_step && expected_of_.max_range == view.max_range &&
+         norm(moved.position()) <= params_.stands && std::abs(moved.theta.radians()) <= params_.stands_turn;
+}
+
 std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
   if (!map_ || !map_from_odom_ || view.stamp - believed_ > seconds(params_.longest)) return Finding{};
   if (view.stamp - compared_ < seconds(params_.between)) return std::nullopt;
   compared_ = view.stamp;
   const Pose2 map_from_sensor = *map_from_odom_ * view.odom_from_sensor;
-  const std::vector<Point2> rays = rays_of(view, map_from_sensor.theta, params_.every);
-  expect_at(view, map_from_sensor.position(), rays, params_.every, expected_);
+  if (!is_expected_from(view, map_from_sensor)) {
+    expected_of_ = {map_from_sensor, view.first_bearing, view.bearing_step, view.max_range};
+    const std::vector<Point2> rays = rays_of(view, map_from_sensor.theta, params_.every);
+    expect_at(view, map_from_sensor.position(), rays, params_.every, expected_);
+  }
   const RangeLaw law = find_law(expected_, view, params_.law);
   Finding finding;
   const auto samples =

@@ -18,14 +18,16 @@ struct MapCheckParams {
   std::size_t every = 2;                           ///< sample: neighbours tell little more
   double least_mass = 0.5;                         ///< of the belief at the place that is asked
   double longest = 3.0;                            ///< [s] since the belief
-  double off = 0.6;           ///< [m] that the place may be wrong: does that explain the readings as well?
-  double off_step = 0.15;     ///< [m] tried
-  double off_turn = 0.17;     ///< [rad] 10 degrees likewise
-  double as_well = 0.15;      ///< of the samples fewer are still as well explained
-  double fits = 0.6;          ///< of the samples that answer are as the map has them: the place is right
-  int least_answers = 12;     ///< of them, for that
-  double nothing_near = 0.1;  ///< of the samples at most meet anything within reach: a silent sweep is no wonder
-  int sure = 2;               ///< comparisons in succession
+  double off = 0.6;            ///< [m] that the place may be wrong: does that explain the readings as well?
+  double off_step = 0.15;      ///< [m] tried
+  double off_turn = 0.17;      ///< [rad] 10 degrees likewise
+  double as_well = 0.15;       ///< of the samples fewer are still as well explained
+  double fits = 0.6;           ///< of the samples that answer are as the map has them: the place is right
+  int least_answers = 12;      ///< of them, for that
+  double nothing_near = 0.1;   ///< of the samples at most meet anything within reach: a silent sweep is no wonder
+  int sure = 2;                ///< comparisons in succession
+  double stands = 0.01;        ///< [m] from where the map was looked at last: a robot that stands need not look again,
+  double stands_turn = 0.005;  ///< [rad] likewise
 };
 
 /// What the map says of a scanner's sweep where the robot believes to stand. The place is not taken for granted: ranges
@@ -58,6 +60,8 @@ class MapCheck {
   [[nodiscard]] std::vector<Point2> rays_of(const SweepView& view, Angle heading, std::size_t every) const;
   void expect_at(const SweepView& view, Point2 in_map, std::span<const Point2> rays, std::size_t every,
                  std::vector<float>& expected) const;
+  /// The last comparison was made from there, with such samples.
+  [[nodiscard]] bool is_expected_from(const SweepView& view, const Pose2& map_from_sensor) const;
   [[nodiscard]] bool is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const;
 
   MapCheckParams params_;
@@ -66,7 +70,15 @@ class MapCheck {
   std::optional<Pose2> map_from_odom_;
   Time believed_{};
   Time compared_{};
+  /// Where `expected_` was looked for.
+  struct Expected {
+    Pose2 map_from_sensor;
+    double first_bearing = 0.0;
+    double bearing_step = 0.0;
+    double max_range = 0.0;
+  };
   std::vector<float> expected_;
+  Expected expected_of_;
   int row_ = 0;
 };
 
