@@ -38,6 +38,7 @@ struct GoalState {
   std::string id;
   std::string state;        ///< idle, waiting (no pose or no plan yet), driving, turning, arrived, blocked, unreachable
   double remaining_m = 0;   ///< along the path
+  double straight_m = 0;    ///< as the crow flies; 0 while the robot does not know its place
   double blocked_s = 0;     ///< no progress for so long
   std::string reason;       ///< in English, for logs
   std::string detour;       ///< none, local, global: how the way differs from the one that was meant
@@ -49,6 +50,7 @@ struct GoalState {
     v("id", m.id);
     v("state", m.state);
     v("remaining_m", m.remaining_m);
+    v("straight_m", m.straight_m);
     v("blocked_s", m.blocked_s);
     v("reason", m.reason);
     v("detour", m.detour);

@@ -56,15 +56,9 @@ docent_msgs::Gaze message_of(const planning::Look& look, Time now) {
 }
 
 docent_msgs::GoalState message_of(const planning::Pursuit& report, const std::string& goal_id, Time now) {
-  return {{to_message(now), "map"},
-          goal_id,
-          to_text(report.state),
-          report.remaining_m,
-          report.blocked_s,
-          report.reason,
-          planning::to_text(report.detour),
-          report.detour_extra,
-          report.is_occupied};
+  return {{to_message(now), "map"}, goal_id,           to_text(report.state), report.remaining_m,
+          report.straight_m,        report.blocked_s,  report.reason,         planning::to_text(report.detour),
+          report.detour_extra,      report.is_occupied};
 }
 
 nav_msgs::Path message_of(const std::vector<Point2>& way, Time now) {

@@ -65,8 +65,8 @@ class ExecutiveModule final : public Module {
       flush();
     });
     bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& state) {
-      executive_.goal_report({state.id, parse<GoalStatus>(state.state), state.remaining_m, state.blocked_s,
-                              state.reason, state.detour, state.occupied},
+      executive_.goal_report({state.id, parse<GoalStatus>(state.state), state.remaining_m, state.straight_m,
+                              state.blocked_s, state.reason, state.detour, state.occupied},
                              bus_.now());
       flush();
     });

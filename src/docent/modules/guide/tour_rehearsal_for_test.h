@@ -70,7 +70,7 @@ class GlidingPlan {
     state.header.stamp = to_message(bus_->now());
     state.id = goal_.id;
     const Point2 to{goal_.x, goal_.y};
-    state.remaining_m = distance(position, to);
+    state.remaining_m = state.straight_m = distance(position, to);
     if (goal_.id.empty()) {
       state.state = "idle";
     } else if (goal_.relocalize) {

@@ -82,7 +82,10 @@ Orders Navigator::step(const Whereabouts& where, Time now) {
     orders.report.reason = "it stands inside a hazard's zone, which only an operator may lead it out of";
     return orders;
   }
-  orders.report = pursuit_.step(where.is_known(now) ? where.map_from_base() : std::nullopt, route_, now);
+  const auto here = where.is_known(now) ? where.map_from_base() : std::nullopt;
+  orders.report = pursuit_.step(here, route_, now);
+  if (here && has_goal())
+    orders.report.straight_m = distance(here->position(), pursuit_.goal().map_from_goal.position());
   orders.report.is_occupied =
       has_goal() && live_.stands_within(pursuit_.goal().map_from_goal.position(), robot_radius_);
   orders.aim = aim_of(orders.report, pursuit_.goal(), where.map_from_odom);

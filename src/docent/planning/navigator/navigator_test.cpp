@@ -192,6 +192,7 @@ TEST_F(NavigatorTest, GoesRoundWhatTheLiveMapShows) {
   for (int i = 0; i < 15; ++i) was_global |= step().report.detour == Detour::global;
   EXPECT_TRUE(was_global) << "until the other way is the one that is meant";
   EXPECT_GT(last.report.remaining_m, 8.0) << "the middle door is closed: through the other";
+  EXPECT_LT(last.report.straight_m, 6.1);
   say_live_map(false);
   run(3.0);
   EXPECT_NEAR(last.report.remaining_m, 6.0, 0.6);

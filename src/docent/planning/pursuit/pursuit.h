@@ -51,6 +51,7 @@ struct Pursuit {
   GoalStatus state = GoalStatus::idle;
   std::string reason;
   double remaining_m = 0.0;
+  double straight_m = 0.0;  ///< to the goal as the crow flies; 0 while the robot does not know its place
   double blocked_s = 0.0;
   Detour detour = Detour::none;
   double detour_extra = 0.0;  ///< [m]

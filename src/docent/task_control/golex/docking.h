@@ -18,7 +18,7 @@ struct DockingParams {
   double move_s = 30.0;            ///< [s] > 0 for one drive of an attempt
   double stand_off_m = 0.6;        ///< [m] > 0: so far from the charger it sets out anew
   double closer_tolerance = 0.08;  ///< [m] > 0 of an attempt: the first arrival may have been too far off
-  double occupied_near_m = 1.5;    ///< [m] > 0 of way from the charger: what holds it up there is on the charger
+  double occupied_near_m = 1.5;    ///< [m] > 0 straight from the charger: what holds it up there is on the charger
   double occupied_after_s = 4.0;   ///< [s] > 0 before a charger on which something stands, until that is believed
   double occupied_wait_s = 20.0;   ///< [s] > 0 that it then waits: who stands there may go
   double blocked_s = 8.0;          ///< [s] > 0 without progress that end a drive of an attempt

@@ -146,7 +146,7 @@ TEST_F(ExecutiveTest, BeforeAThingOnItsChargerItBlowsNoHornAndAsksNobody) {
   for (int i = 0; i < 200 && state.state == TaskStatus::driving; ++i) {
     executive.obstacle_report({true, true, "person_in_way", false}, time());
     if (const bool waits = drive->id == "c/drive" && i > 40; !waits)
-      executive.goal_report({drive->id, GoalStatus::blocked, 0.7, 1.0 * i, "no progress", "none", true}, time());
+      executive.goal_report({drive->id, GoalStatus::blocked, 2.8, 0.7, 1.0 * i, "no progress", "none", true}, time());
     collect();
     pass(1.0);
     drives.insert(drive->id);
@@ -165,7 +165,7 @@ TEST_F(ExecutiveTest, WhoeverWasSeenToWalkToTheChargerIsAsked) {
     const PersonSeen person{7, {3.1, 4.2}, i == 0 ? 0.8 : 0.0};
     executive.people_report({&person, 1}, time());
     executive.obstacle_report({true, true, "person_in_way", false}, time());
-    executive.goal_report({drive->id, GoalStatus::blocked, 0.7, 0.25 * i, "no progress", "none", true}, time());
+    executive.goal_report({drive->id, GoalStatus::blocked, 2.8, 0.7, 0.25 * i, "no progress", "none", true}, time());
     collect();
     pass(0.25);
   }

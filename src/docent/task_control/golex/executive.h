@@ -51,9 +51,10 @@ struct DriveOrder {
 struct GoalReport {
   std::string id;
   std::optional<GoalStatus> state;  ///< nullopt: one that is not known
-  double remaining_m = 0.0;
-  double blocked_s = 0.0;  ///< without progress
-  std::string reason;      ///< in English, for logs
+  double remaining_m = 0.0;         ///< of its way
+  double straight_m = 0.0;          ///< as the crow flies
+  double blocked_s = 0.0;           ///< without progress
+  std::string reason;               ///< in English, for logs
   std::string detour;
   bool is_occupied = false;  ///< something that is not in the map stands where the robot would stand
 };

@@ -59,7 +59,7 @@ bool Executive::docks_next() const {
 bool Executive::is_before_occupied_charger() const {
   const Directive* driven = under_way(DirectiveKind::drive);
   return driven != nullptr && driven->argument == "charger" && goal_.is_occupied && docks_next() &&
-         (goal_.state == GoalStatus::unreachable || goal_.remaining_m <= params_.docking.occupied_near_m);
+         (goal_.state == GoalStatus::unreachable || goal_.straight_m <= params_.docking.occupied_near_m);
 }
 
 void Executive::climb_ladder(Time now) {

@@ -39,7 +39,7 @@ class ExecutiveTest : public testing::Test {
   /// What the planner says; a drive that goes on makes progress.
   void goal(GoalStatus what) {
     if (what != GoalStatus::blocked) progress_s = now_s;
-    executive.goal_report({drive->id, what, 1.0, now_s - progress_s, "", "none"}, time());
+    executive.goal_report({drive->id, what, 1.0, 1.0, now_s - progress_s, "", "none"}, time());
     collect();
   }
   void speech(const std::string& id, SpeechStatus what, double duration_s = 3.0) {

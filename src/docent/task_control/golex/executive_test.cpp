@@ -119,7 +119,7 @@ TEST_F(ExecutiveTest, ADriveToAndFroBetweenClosedWaysIsGivenUp) {
     while (now_s - began < seconds_driven && state.state == TaskStatus::driving) {
       const double way_m = std::abs(std::fmod(now_s - began, 40.0) - 20.0) / 2.0;  // 10 m to and fro
       const double progress_m = comes_nearer ? 0.05 * (now_s - began) : 0.0;
-      executive.goal_report({drive->id, GoalStatus::driving, nearest_m + way_m - progress_m, 0.0, "", "global"},
+      executive.goal_report({drive->id, GoalStatus::driving, nearest_m + way_m - progress_m, 0.0, 0.0, "", "global"},
                             time());
       collect();
       pass(0.5);
@@ -141,7 +141,7 @@ TEST_F(ExecutiveTest, ADriveThatIsInterruptedAgainAndAgainIsGivenUpAllTheSame) {
     for (int i = 0; now_s - began < 900.0; ++i) {
       start(visit("t" + std::to_string(now_s)));
       for (double end = now_s + 40.0; now_s < end; pass(0.5)) {
-        executive.goal_report({drive->id, GoalStatus::driving, 30.0, 0.0, "", "global"}, time());
+        executive.goal_report({drive->id, GoalStatus::driving, 30.0, 25.0, 0.0, "", "global"}, time());
         collect();
         if (state.state == TaskStatus::failed) return now_s - began;
       }
@@ -215,7 +215,7 @@ TEST_F(ExecutiveTest, AnUnreachablePlaceFailsAfterAShortPatience) {
 
 TEST_F(ExecutiveTest, ReportsOfOtherGoalsDoNotCount) {
   start(visit("t1"));
-  executive.goal_report({"t0/drive", GoalStatus::arrived, 0.0, 0.0, "", ""}, time());
+  executive.goal_report({"t0/drive", GoalStatus::arrived, 0.0, 0.0, 0.0, "", ""}, time());
   collect();
   EXPECT_EQ(state.state, TaskStatus::driving);
 }
@@ -395,7 +395,7 @@ TEST_F(ExecutiveTest, ADepartureIsLookedForwardToAndHeard) {
   EXPECT_EQ(actions.music, true);
   ASSERT_TRUE(actions.drive);
   EXPECT_EQ(actions.drive->id, "t1/drive");
-  executive.goal_report({"t1/drive", GoalStatus::arrived, 0.0, 0.0, "", "none"}, time());
+  executive.goal_report({"t1/drive", GoalStatus::arrived, 0.0, 0.0, 0.0, "", "none"}, time());
   const auto arrived = executive.take_actions();
   EXPECT_EQ(arrived.music, false);
   EXPECT_EQ(arrived.report->look, "visitors");
