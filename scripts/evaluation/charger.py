@@ -17,6 +17,7 @@ CHARGE = (0.17, 0.24)
 LEFT = 0.10  # the staff are told while more is left
 STAYS, MINUTES = 1500.0, 50.0  # [s] until somebody mends it; of a run
 FREE_BY = 600.0  # [s] from then until it charges
+AT_CHARGER = 3.0  # [m] from it: whoever is asked for way farther off stands in a way
 
 
 class Case:
@@ -77,7 +78,7 @@ def charges_again(one):
     return ready[0] - STAYS if ready else None
 
 
-def faults_of(name, one):
+def faults_of(name, one, charger):
     faults = [f"touched {contacts_of(one.report)}"] if contacts_of(one.report) else []
     call = told(one, name)
     if call is None:
@@ -87,7 +88,7 @@ def faults_of(name, one):
     wrong = [row["subject"] for row in one.all("staff_called") if row["subject"] not in (CASES[name].reason, "battery_low")]
     if wrong:
         faults.append(f"told {', '.join(sorted(set(wrong)))}")
-    if CASES[name].reason == "charger_occupied" and (asked := asked_at_charger(one)):
+    if CASES[name].reason == "charger_occupied" and (asked := asked_at_charger(one, charger)):
         faults.append(f"asked a thing to make way {asked} times")
     said = [row for row in one.rows if row["source"] == "say" and row["subject"].endswith("/call")]
     if not said and name != "claims" and name != "mute":
@@ -99,9 +100,10 @@ def faults_of(name, one):
     return faults
 
 
-def asked_at_charger(one):
-    """How often it asked for way on its way to the charger, while it stood before it."""
-    return sum(row["subject"] == "" for row in one.all("asked_for_way"))
+def asked_at_charger(one, charger):
+    """How often it asked for way on its way to the charger, while it stood before it and a thing stood on it."""
+    return sum(row["subject"] == "" and row["time"] < STAYS and math.dist((row["x"], row["y"]), charger[:2]) <= AT_CHARGER
+               for row in one.all("asked_for_way"))
 
 
 def protocol(simulations, options):
@@ -130,7 +132,8 @@ def protocol(simulations, options):
     print()
     verdict = Verdict()
     for (museum, name, how), found in runs.items():
-        faults = {seed: bad for seed, one in zip(of(how), found) if (bad := faults_of(name, one))}
+        charger = ways.Museum(simulations.museums / museum).charger
+        faults = {seed: bad for seed, one in zip(of(how), found) if (bad := faults_of(name, one, charger))}
         seen = f"{len(found) - len(faults)} of {len(found)} seeds" + "".join(f"; seed {seed}: {', '.join(bad)}" for seed, bad in faults.items())
         if how:
             verdict.want(f"{museum}, {name}, crippled: {how} (must fail)", seen, 2 * len(faults) > len(found))

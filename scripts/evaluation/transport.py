@@ -141,16 +141,18 @@ def protocol(simulations, options):
     seeds = range(options.first_seed, options.first_seed + (options.seeds or (1 if options.slice else SEEDS)))
     minutes = options.minutes or (SLICE_MINUTES if options.slice else MINUTES)
     faults = [options.part] if options.part else SLICE if options.slice else list(FAULTS)
-    plan = [(fault, museum, seed) for fault in faults for museum in museums for seed in seeds]
     print(f"\n## transport, {', '.join(museums)}, busy, {len(seeds)} seeds x {minutes:g} minutes a fault, a real jump {JUMP_BEFORE_END:g} s before the end\n")
-    made = runs_of(simulations, plan, minutes, [])
-    by_fault = {fault: [run for (name, _, _), run in zip(plan, made) if name == fault] for fault in faults}
+    by_fault = {}
+    for fault in faults:
+        by_fault[fault] = runs_of(simulations, [(fault, museum, seed) for museum in museums for seed in seeds], minutes, [])
+        print("   " + "; ".join(f"{what}: {value}" for what, value in zip(HEADER, row_of(fault, by_fault[fault]))), flush=True)
+    print()
     print_table(HEADER, [row_of(fault, runs) for fault, runs in by_fault.items()])
     print()
     verdict = Verdict()
     for fault, runs in by_fault.items():
         judge(fault, runs, verdict)
-    verdict.want_one_configuration(run.report["config_hash"] for run in made)
+    verdict.want_one_configuration(run.report["config_hash"] for runs in by_fault.values() for run in runs)
     if not options.no_crippled:
         crippled = runs_of(simulations, [(faults[-1], museums[0], seeds[0])], CRIPPLED_MINUTES, CRIPPLED)
         print_table(HEADER, [row_of("crippled: doubts its odometry", crippled)])
