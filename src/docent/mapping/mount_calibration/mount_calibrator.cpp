@@ -16,7 +16,9 @@ constexpr std::size_t kNewestDelay = 8;  // pairs that may tell that stamps are 
 constexpr double kStrangeDelay = 4.5;    // mean squared sigmas of them
 constexpr double kOrdinaryPair = 9.0;    // squared sigmas; who meets another one looks again at once
 constexpr std::size_t kAnd = 5;          // characters
-constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled
+constexpr std::size_t kFitEvery = 3;     // pairs, of what is settled;
+constexpr std::size_t kFewNew = 36;      // pairs that are fitted, for each new one that is waited for besides: it tells
+                                         // little beside them
 constexpr double kMuchBetter = 0.6;      // of that, with another mount
 constexpr double kHysteresis = 0.6;      // of what is named: below it nothing is corrected any more,
 constexpr double kTakenBack = 1.0;       // of it: if the standard deviation is that small, too
@@ -170,7 +172,7 @@ bool MountCalibrator::work() {
                          return residual_of(pair, state, params_.fit) <= kOrdinaryPair;
                        });
     if (rests) rest(follower);
-    if (follower.unfitted < (rests ? kFitEvery : 1)) continue;
+    if (follower.unfitted < std::max(rests ? kFitEvery : 1, 1 + follower.pairs.size() / kFewNew)) continue;
     follower.unfitted = 0;
     fit(i);
     is_new = true;
