@@ -26,6 +26,28 @@ void NearThings::revise(const SweepView& view) {
   });
 }
 
+void NearThings::note_nearest(const SweepView& view) {
+  std::erase_if(nearest_, [&](const Nearest& one) { return view.stamp - one.stamp > seconds(params_.proves); });
+  std::vector<float> met;
+  for (std::size_t i = 0; i < view.ranges.size(); ++i)
+    if (view.met(i) && view.ranges[i] < static_cast<float>(params_.within)) met.push_back(view.ranges[i]);
+  const auto several = static_cast<std::ptrdiff_t>(params_.several);
+  if (std::ssize(met) < several) return;
+  std::nth_element(met.begin(), met.begin() + several - 1, met.end());
+  const auto range = static_cast<double>(met[static_cast<std::size_t>(several - 1)]);
+  // Of readings that are farther and older nothing more is to be learned.
+  std::erase_if(nearest_, [&](const Nearest& one) { return one.range >= range; });
+  nearest_.push_back({view.stamp, range});
+  if (!has_seen_nearer_than(blind_within_ - params_.alike)) return;
+  blind_within_ = 0.0;
+  gaps_ = 0;
+  places_.clear();
+}
+
+bool NearThings::has_seen_nearer_than(double range) const {
+  return std::any_of(nearest_.begin(), nearest_.end(), [&](const Nearest& one) { return one.range < range; });
+}
+
 bool NearThings::find_gaps(const SweepView& view, std::span<const float> expected, std::vector<Point2>& gone) {
   const std::size_t samples = view.ranges.size();
   bool found = false;
@@ -43,6 +65,7 @@ bool NearThings::find_gaps(const SweepView& view, std::span<const float> expecte
     // A scanner that is blind within some distance loses a thing's middle and keeps both sides, from that distance on.
     // Two people between whom somebody has left are seldom as far.
     if (flank > params_.within || flank - nearer > params_.alike) continue;
+    if (has_seen_nearer_than(nearer - params_.alike)) continue;
     std::vector<Point2> in_gap;
     for (std::size_t k = first; k < i; ++k) {
       if (!(static_cast<double>(expected[k]) <= flank + params_.flank)) continue;
@@ -69,6 +92,7 @@ void NearThings::hold(const SweepView& view, std::span<const Point2> gone) {
 
 void NearThings::add(const SweepView& before, const SweepView& view, std::span<const float> expected,
                      const SweepForm& form) {
+  note_nearest(view);
   revise(view);
   const double elapsed = std::max(0.0, to_seconds(view.stamp - before.stamp));
   if (elapsed > params_.fast) {

@@ -27,6 +27,8 @@ struct NearThingsParams {
   double alike = 0.12;     ///< [m] between the two readings beside it, and from one sweep to the next
   double flank = 0.05;     ///< [m] beyond the readings beside it a gap's thing was before
   double gap_known = 0.6;  ///< of a gap's samples were that near
+  double proves = 30.0;    ///< [s] for which a reading proves that the scanner sees as near as that: between people's
+                         ///< legs gaps come and go
 };
 
 /// Things that came up to a scanner's min_range and of which it then said that nothing is there: they are, until beams
@@ -61,6 +63,9 @@ class NearThings {
     int missed = 0;
   };
   void revise(const SweepView& view);
+  /// A scanner that sees something nearer is not blind there.
+  void note_nearest(const SweepView& view);
+  [[nodiscard]] bool has_seen_nearer_than(double range) const;
   /// Samples in gaps in the middle of what was there. @returns whether there are any
   bool find_gaps(const SweepView& view, std::span<const float> expected, std::vector<Point2>& gone);
   void hold(const SweepView& view, std::span<const Point2> gone);
@@ -78,6 +83,11 @@ class NearThings {
   int gaps_ = 0;             ///< sweeps in which one showed
   double last_flank_ = 0.0;  ///< [m]
   double blind_within_ = 0.0;
+  struct Nearest {
+    Time stamp;
+    double range;  ///< [m] several samples were as near
+  };
+  std::vector<Nearest> nearest_;  ///< lately
 };
 
 }  // namespace docent::collision_avoidance

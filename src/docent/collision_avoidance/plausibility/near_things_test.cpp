@@ -79,6 +79,38 @@ TEST_F(NearThingsTest, FindsAScannerThatIsBlindFartherThanItStates) {
   EXPECT_GT(hidden, 10U);
 }
 
+TEST_F(NearThingsTest, LegsThatComeAndGoBetweenOthersAreNoBlindness) {
+  room.min_range = 0.05;
+  const std::vector<std::pair<Point2, double>> two{{{0.8, 0.2}, 0.06}, {{0.8, -0.2}, 0.06}};
+  const auto stand = [&](bool with_third) {
+    room.discs.clear();
+    for (const auto& [at, radius] : two) room.discs.push_back({at, radius});
+    if (with_third) room.discs.push_back({{0.78, 0.0}, 0.12});
+  };
+  room.discs = {{{0.45, 0.1}, 0.06}};  // somebody has been nearer
+  for (int i = 0; i < 3; ++i) look({}, 0.05);
+  for (int k = 0; k < 10; ++k) {
+    stand(true);
+    for (int i = 0; i < 3; ++i) look({}, 0.05);
+    stand(false);
+    for (int i = 0; i < 3; ++i) look({}, 0.05);
+  }
+  EXPECT_EQ(things.blind_within(), 0.0);
+  EXPECT_FALSE(things.is_any_sure());
+}
+
+TEST_F(NearThingsTest, TakesBackABlindnessWhereItSeesAfterAll) {
+  room.min_range = 0.05;
+  room.walls = {{{2.0, -3.0}, {2.0, 3.0}}};
+  drive(0.0, 1.7, 0.6);
+  ASSERT_GT(things.blind_within(), 0.5);
+  room.walls.clear();
+  room.discs = {{{2.05, 0.0}, 0.06}};
+  for (int i = 0; i < 3; ++i) look({1.7, 0.0, {}}, 0.05);
+  EXPECT_EQ(things.blind_within(), 0.0);
+  EXPECT_EQ(hidden, 0U);
+}
+
 TEST_F(NearThingsTest, BetweenSlowSweepsAnybodyMayHaveLeft) {
   period = 1.0;
   room.min_range = 0.5;
