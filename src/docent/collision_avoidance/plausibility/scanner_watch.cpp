@@ -355,7 +355,7 @@ void ScannerWatch::judge_by_walls(const SweepView& view) {
 }
 
 void ScannerWatch::judge_by_parallax(const SweepView& view) {
-  if (lie_ || form_.is_silent) return parallax_.forget_place();
+  if (lie_ || form_.is_silent || has_ring_) return parallax_.forget_place();
   if (parallax_.add(view) != ParallaxCheck::Finding::offset) return;
   const RangeLaw law{.offset = parallax_.offset()};
   if (does_map_fit(view.stamp) || rings_.contradicts(law, {})) return;
