@@ -14,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLeastSide = 32;    // [pixels] of a picture that shows anything
-constexpr double kPanel = 260.0;  // [points] height of each half of the figure
+constexpr int kLeastSide = 32;           // [pixels] of a picture that shows anything
+constexpr double kFineRegions = 3000.0;  // RegionMergingParams::a_region: a clear bottle is hardly unlike its ground
+constexpr double kPanel = 260.0;         // [points] height of each half of the figure
 
 bool is_jpeg(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -34,14 +35,14 @@ pictures::Color color_of(const vision::Site& site) {
           255};
 }
 
-pictures::Image image_of(const SeenPicture& seen) {
-  pictures::Image image{seen.regions.columns, seen.regions.rows};
-  for (int row = 0; row < seen.regions.rows; ++row)
-    for (int column = 0; column < seen.regions.columns; ++column)
-      image.set(
-          column, row,
-          color_of(
-              seen.regions.regions[static_cast<std::size_t>(seen.regions.of[seen.sites.index(column, row)])].mean));
+pictures::Image image_of(const vision::Segmentation& regions) {
+  pictures::Image image{regions.columns, regions.rows};
+  for (int row = 0; row < regions.rows; ++row)
+    for (int column = 0; column < regions.columns; ++column) {
+      const int site = row * regions.columns + column;
+      const int region = regions.of[static_cast<std::size_t>(site)];
+      image.set(column, row, color_of(regions.regions[static_cast<std::size_t>(region)].mean));
+    }
   return image;
 }
 
@@ -79,8 +80,7 @@ pictures::Axes& add_panel(pictures::Figure& figure, const pictures::Image& image
 SeenPicture see(const pictures::Image& picture) {
   SeenPicture seen;
   seen.sites = vision::sites_of(picture, std::max(1, std::max(picture.width(), picture.height()) / kSitesAcross));
-  seen.regions = vision::merge_regions(seen.sites);
-  seen.thing = vision::part_from_ground(seen.sites, seen.regions);
+  seen.thing = vision::part_from_ground(seen.sites, vision::merge_regions(seen.sites, {.a_region = kFineRegions}));
   seen.features = vision::features_of(seen.sites, seen.thing);
   return seen;
 }
@@ -119,8 +119,9 @@ pictures::Figure draw_regions(const pictures::Image& picture, const SeenPicture&
   constexpr pictures::Color kOutline{220, 0, 90, 255};
   pictures::Figure figure{title};
   add_panel(figure, picture, picture, "the picture");
+  const vision::Segmentation found = vision::merge_regions(seen.sites);
   pictures::Axes& regions =
-      add_panel(figure, image_of(seen), picture, std::to_string(seen.regions.regions.size()) + " regions");
+      add_panel(figure, image_of(found), picture, std::to_string(found.regions.size()) + " regions");
   const double scale = regions.width() / seen.sites.columns;
   regions.add([lines = outline_of(seen), scale](pictures::Canvas& canvas) {
     for (const auto& [from, to] : lines) canvas.draw_line(scale * from, scale * to, 1.0, kOutline);

@@ -13,7 +13,6 @@ namespace docent::apps::objects_command {
 /// A picture as the recognizer sees it.
 struct SeenPicture {
   vision::Sites sites;
-  vision::Segmentation regions;
   vision::StandingThing thing;
   vision::Features features{};
 };

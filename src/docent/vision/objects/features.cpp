@@ -13,7 +13,7 @@ constexpr float kBright = 235.0F;      // luminance of what mirrors a lamp,
 constexpr float kDark = 60.0F;         // and of what swallows light
 constexpr double kPaleGround = 200.0;  // luminance that is taken for the ground's where none is seen
 
-struct Moments {
+struct FeatureSums {
   double n = 0.0, sum = 0.0, squares = 0.0;
   void add(double value) {
     n += 1.0;
@@ -66,7 +66,7 @@ Features features_of(const Sites& sites, const StandingThing& thing) {
   constexpr double kFewSides = 0.05;  // of the sites at each side are left out of a thing's width and height
   const bool has_ground = thing.ground_sites > 0;
   const double ground = has_ground ? static_cast<double>(thing.ground.luminance) : kPaleGround;
-  Moments luminance, red_green, yellow_blue, saturation, slope;
+  FeatureSums luminance, red_green, yellow_blue, saturation, slope;
   std::vector<float> columns, rows, saturations;
   double bright = 0.0, dark = 0.0;
   for (int row = 0; row < sites.rows; ++row) {

@@ -19,7 +19,9 @@ constexpr int kSize = static_cast<int>(kFeatures);
 using Square = Eigen::Matrix<double, kSize, kSize>;
 using Column = Eigen::Matrix<double, kSize, 1>;
 
-constexpr std::array<double, 8> kShrinkages{0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8};  // that are tried
+// Shares of what all classes have in common, and of the variances alone, that are tried.
+constexpr std::array<double, 5> kCommon{0.0, 0.25, 0.5, 0.75, 1.0};
+constexpr std::array<double, 3> kAlone{0.02, 0.1, 0.3};
 constexpr double kLeastVariance = 1e-3;  // of a standardized feature: examples that are all alike say little of others
 
 Column column_of(const Features& features) { return Eigen::Map<const Column>(features.data()); }
@@ -34,11 +36,14 @@ struct Gaussian {
   [[nodiscard]] double log_likelihood(const Column& at) const { return -0.5 * (distance(at) + log_volume); }
 };
 
-/// @param left_out  index of an example that is not taken; as many as there are: none
-Gaussian fit(const std::vector<Column>& examples, double shrinkage, std::size_t left_out) {
-  Gaussian result;
-  result.mean.setZero();
+struct Moments {
+  Column mean = Column::Zero();
   Square covariance = Square::Zero();
+};
+
+/// @param left_out  index of an example that is not taken; as many as there are: none
+Moments moments_of(const std::vector<Column>& examples, std::size_t left_out) {
+  Moments result;
   double count = 0.0;
   for (std::size_t i = 0; i < examples.size(); ++i) {
     if (i == left_out) continue;
@@ -47,27 +52,54 @@ Gaussian fit(const std::vector<Column>& examples, double shrinkage, std::size_t 
   }
   result.mean /= count;
   for (std::size_t i = 0; i < examples.size(); ++i)
-    if (i != left_out) covariance += (examples[i] - result.mean) * (examples[i] - result.mean).transpose();
-  covariance /= count - 1.0;
-  const Column own = covariance.diagonal().cwiseMax(kLeastVariance);
-  covariance *= 1.0 - shrinkage;
-  covariance.diagonal() = own;
-  const Eigen::LLT<Square> factor{covariance};
-  result.inverse = factor.solve(Square::Identity());
-  result.log_volume = 2.0 * factor.matrixL().toDenseMatrix().diagonal().array().log().sum();
+    if (i != left_out) result.covariance += (examples[i] - result.mean) * (examples[i] - result.mean).transpose();
+  result.covariance /= count - 1.0;
   return result;
 }
 
-/// [examples] squared distances of each from the Gaussian of the others, and the sum of their log-likelihoods.
-std::pair<std::vector<double>, double> leave_one_out(const std::vector<Column>& examples, double shrinkage) {
-  std::vector<double> distances;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < examples.size(); ++i) {
-    const Gaussian others = fit(examples, shrinkage, i);
-    distances.push_back(others.distance(examples[i]));
-    sum += others.log_likelihood(examples[i]);
+/// How much a class takes over from all of them. [Friedman1989]
+struct Regularization {
+  double common = 0.0;  ///< share of their pooled covariance
+  double alone = 0.0;   ///< share of the variances alone, of what comes of it
+};
+
+Gaussian regularized(const Moments& own, const Square& pooled, const Regularization& how) {
+  Square covariance = (1.0 - how.common) * own.covariance + how.common * pooled;
+  const Column variances = covariance.diagonal().cwiseMax(kLeastVariance);
+  covariance *= 1.0 - how.alone;
+  covariance.diagonal() = variances;
+  const Eigen::LLT<Square> factor{covariance};
+  return {own.mean, factor.solve(Square::Identity()),
+          2.0 * factor.matrixL().toDenseMatrix().diagonal().array().log().sum()};
+}
+
+using ByClass = std::vector<std::vector<Column>>;
+
+/// What the examples say that are left out in turn.
+struct LeftOut {
+  double likelihood = 0.0;                     ///< logarithm, of their classes
+  std::vector<std::vector<double>> distances;  ///< [classes][examples] squared, from the others of their class
+};
+
+LeftOut leave_one_out(const ByClass& classes, const std::vector<Moments>& moments, const Square& pooled,
+                      const Regularization& how) {
+  std::vector<Gaussian> whole;
+  for (const Moments& own : moments) whole.push_back(regularized(own, pooled, how));
+  LeftOut result;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    result.distances.emplace_back();
+    for (std::size_t i = 0; i < classes[c].size(); ++i) {
+      const Column& at = classes[c][i];
+      const Gaussian others = regularized(moments_of(classes[c], i), pooled, how);
+      result.distances.back().push_back(others.distance(at));
+      const double own = others.log_likelihood(at);
+      double odds = 1.0;  // of all classes against its own
+      for (std::size_t k = 0; k < classes.size(); ++k)
+        if (k != c) odds += std::exp(std::min(500.0, whole[k].log_likelihood(at) - own));
+      result.likelihood -= std::log(odds);
+    }
   }
-  return {distances, sum};
+  return result;
 }
 
 }  // namespace
@@ -95,25 +127,38 @@ Result<ObjectBook> ObjectBook::learn(std::span<const Example> examples, const Ob
     for (const Example& example : examples) squares += std::pow(example.features[i] - book.middle_[i], 2);
     book.spread_[i] = std::max(1e-6, std::sqrt(squares / static_cast<double>(examples.size())));
   }
+  ByClass classes;
+  std::vector<Moments> moments;
+  Square pooled = Square::Zero();
   for (const auto& [object, own] : by_object) {
-    std::vector<Column> columns;
-    for (const Features& features : own) columns.push_back(column_of(book.standardized(features)));
+    classes.emplace_back();
+    for (const Features& features : own) classes.back().push_back(column_of(book.standardized(features)));
+    moments.push_back(moments_of(classes.back(), own.size()));
+    pooled += static_cast<double>(own.size() - 1) / static_cast<double>(examples.size() - by_object.size()) *
+              moments.back().covariance;
+  }
+  Regularization best_how;
+  LeftOut best{-std::numeric_limits<double>::infinity(), {}};
+  for (const double common : kCommon) {
+    for (const double alone : kAlone) {
+      LeftOut left_out = leave_one_out(classes, moments, pooled, {common, alone});
+      if (left_out.likelihood <= best.likelihood) continue;
+      best = std::move(left_out);
+      best_how = {common, alone};
+    }
+  }
+  book.common_ = best_how.common;
+  book.alone_ = best_how.alone;
+  std::size_t c = 0;
+  for (const auto& [object, own] : by_object) {
     Class learned;
     learned.object = object;
     learned.examples = own.size();
-    double best = -std::numeric_limits<double>::infinity();
-    std::vector<double> distances;
-    for (const double shrinkage : kShrinkages) {
-      auto [own_distances, likelihood] = leave_one_out(columns, shrinkage);
-      if (likelihood <= best) continue;
-      best = likelihood;
-      learned.shrinkage = shrinkage;
-      distances = std::move(own_distances);
-    }
-    const Gaussian gaussian = fit(columns, learned.shrinkage, columns.size());
+    const Gaussian gaussian = regularized(moments[c], pooled, best_how);
     std::copy(gaussian.mean.begin(), gaussian.mean.end(), learned.mean.begin());
     learned.inverse.assign(gaussian.inverse.data(), gaussian.inverse.data() + kSize * kSize);
     learned.log_volume = gaussian.log_volume;
+    std::vector<double>& distances = best.distances[c++];
     std::sort(distances.begin(), distances.end());
     const auto last = static_cast<std::size_t>(std::ceil(params.known * static_cast<double>(distances.size()))) - 1;
     learned.most_distant = distances[std::min(last, distances.size() - 1)];
@@ -150,7 +195,6 @@ Result<void> ObjectBook::save(const std::filesystem::path& path) const {
   for (const Class& known : classes_)
     classes.push_back({{"object", known.object},
                        {"examples", known.examples},
-                       {"shrinkage", known.shrinkage},
                        {"most_distant", known.most_distant},
                        {"log_volume", known.log_volume},
                        {"mean", known.mean},
@@ -159,6 +203,8 @@ Result<void> ObjectBook::save(const std::filesystem::path& path) const {
                                     {"features", feature_names()},
                                     {"middle", middle_},
                                     {"spread", spread_},
+                                    {"common", common_},
+                                    {"alone", alone_},
                                     {"classes", classes}};
   return write_file_atomically(path, file.dump(1) + "\n");
 }
@@ -177,11 +223,12 @@ Result<ObjectBook> ObjectBook::load(const std::filesystem::path& path) {
       return refuse("has other features than this program: learn the objects anew");
     file.at("middle").get_to(book.middle_);
     file.at("spread").get_to(book.spread_);
+    file.at("common").get_to(book.common_);
+    file.at("alone").get_to(book.alone_);
     for (const auto& one : file.at("classes")) {
       Class known;
       one.at("object").get_to(known.object);
       one.at("examples").get_to(known.examples);
-      one.at("shrinkage").get_to(known.shrinkage);
       one.at("most_distant").get_to(known.most_distant);
       one.at("log_volume").get_to(known.log_volume);
       one.at("mean").get_to(known.mean);

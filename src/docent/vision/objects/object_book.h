@@ -24,13 +24,15 @@ struct ObjectBookParams {
 };
 
 /// Things that the robot knows by sight, after [Rhino1994]: a Gaussian for each class of objects. With 30 to 50
-/// examples a covariance of 17 features is all but singular, so it is shrunk towards its own diagonal, as much as makes
-/// the examples likeliest that were left out of it (leave-one-out). The class is that of the greatest likelihood, which
-/// is the paper's Mahalanobis distance with ln |S|; what is farther from it than all but few of its own left-out
-/// examples is unclassified. Deterministic.
+/// examples a covariance of 17 features is all but singular, so each class takes over a share of the covariance of all,
+/// and of the variances alone: those shares, of some, by which the examples are named best that are left out in turn
+/// (regularized discriminant analysis, J. Friedman, J. of the American Statistical Association, 1989). The class is
+/// that of the greatest likelihood, which is the paper's Mahalanobis distance with ln |S|; what is farther from it than
+/// all but few of its own left-out examples is unclassified. Deterministic.
 class ObjectBook {
  public:
-  /// Error: fewer than two classes, or one with too few examples, by name. O(examples * kFeatures^3).
+  /// Error: fewer than two classes, or one with too few examples, by name. O(examples * (examples of a class +
+  /// kFeatures) * kFeatures^2).
   [[nodiscard]] static Result<ObjectBook> learn(std::span<const Example> examples, const ObjectBookParams& params = {});
 
   struct Finding {
@@ -56,13 +58,14 @@ class ObjectBook {
     Features mean{};            ///< standardized
     Matrix inverse;             ///< of the covariance
     double log_volume = 0.0;    ///< ln |S|
-    double shrinkage = 0.0;     ///< 0..1
     double most_distant = 0.0;  ///< squared: beyond it a thing is unclassified
   };
   [[nodiscard]] Features standardized(const Features& features) const;
 
-  Features middle_{};  ///< of all examples
-  Features spread_{};  ///< likewise, > 0
+  Features middle_{};    ///< of all examples
+  Features spread_{};    ///< likewise, > 0
+  double common_ = 0.0;  ///< share of the covariance of all classes in that of each,
+  double alone_ = 0.0;   ///< and of the variances alone
   std::vector<Class> classes_;
 };
 

@@ -44,7 +44,7 @@ TEST(ObjectBook, TellsTwoKindsApartAndAThirdFromBoth) {
     foreign += book->name(drawn("cat", 6.0, rng).features).is_known ? 1 : 0;
   }
   EXPECT_GT(right, 190);
-  EXPECT_GT(known, 160);
+  EXPECT_GT(known, 130);
   EXPECT_EQ(foreign, 0);
 }
 

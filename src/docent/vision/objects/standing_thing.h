@@ -9,7 +9,7 @@ namespace docent::vision {
 
 struct GroundParams {
   double least_luminance = 90.0;   ///< 0..255: a floor or a sheet is no darker,
-  double most_coloured = 60.0;     ///< 0..255: nor more coloured; wood and cardboard are
+  double most_coloured = 45.0;     ///< 0..255: nor more coloured; wood and cardboard are
   double most_uneven = 900.0;      ///< [square of grey levels] of a region: what is printed on is no floor
   double least_of_border = 0.04;   ///< of the picture's border, for a region to be part of the ground
   double least_of_picture = 0.01;  ///< of its sites: what stands out by less is dust
