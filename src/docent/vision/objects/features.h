@@ -10,7 +10,7 @@ namespace docent::vision {
 
 inline constexpr std::size_t kFeatures = 17;
 
-/// What the recognizer of [Rhino1994] looks at: luminance, colour and geometry of a thing, here with how rough it is.
+/// What the recognizer of [Buhmann1995] looks at: luminance, colour and geometry of a thing, here with how rough it is.
 using Features = std::array<double, kFeatures>;
 
 /// [kFeatures] of each feature, for people and for files.

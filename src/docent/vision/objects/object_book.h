@@ -23,10 +23,10 @@ struct ObjectBookParams {
   double known = 0.95;             ///< of a class's own examples, left out of it in turn, are to be taken for known
 };
 
-/// Things that the robot knows by sight, after [Rhino1994]: a Gaussian for each class of objects. With 30 to 50
+/// Things that the robot knows by sight, after [Buhmann1995]: a Gaussian for each class of objects. With 30 to 50
 /// examples a covariance of 17 features is all but singular, so each class takes over a share of the covariance of all,
 /// and of the variances alone: those shares, of some, by which the examples are named best that are left out in turn
-/// (regularized discriminant analysis, J. Friedman, J. of the American Statistical Association, 1989). The class is
+/// (regularized discriminant analysis, [Friedman1989]). The class is
 /// that of the greatest likelihood, which is the paper's Mahalanobis distance with ln |S|; what is farther from it than
 /// all but few of its own left-out examples is unclassified. Deterministic.
 class ObjectBook {

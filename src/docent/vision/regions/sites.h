@@ -14,7 +14,7 @@ struct Site {
   float yellow_blue = 0.0F;  ///< -255..255, yellow is positive
 };
 
-/// A picture after its low-pass filter and subsampling, the first stage of [Rhino1994].
+/// A picture after its low-pass filter and subsampling, the first stage of [Buhmann1995].
 struct Sites {
   int columns = 0;
   int rows = 0;
