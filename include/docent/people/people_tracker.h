@@ -53,6 +53,7 @@ struct PersonTrack {
   TrackedPerson person;                 ///< the estimate
   double pp = 0.0, pv = 0.0, vv = 0.0;  ///< covariance of position and velocity along an axis
   double radius = 0.22;                 ///< [m]
+  double breadth = 0.0;                 ///< [m] running mean, see PersonSighting
   int sightings = 1;                    ///< so far
   int doubts = 0;                       ///< sightings that it lacks yet, having begun beside somebody
   double missed = 0.0;                  ///< 0..1 of the patience

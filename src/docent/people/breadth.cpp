@@ -15,9 +15,9 @@ Result<void> BreadthParams::validate() const {
 Breadth::Breadth(const BreadthParams& params)
     : params_{params}, broad_{params.at_first * params.trust}, all_{params.trust} {}
 
-void Breadth::learn(int sightings, double radius) {
+void Breadth::learn(int sightings, double breadth) {
   if (sightings <= params_.from || sightings > params_.from + params_.of_one) return;
-  broad_ += is_broad(radius) ? 1.0 : 0.0;
+  broad_ += is_broad(breadth) ? 1.0 : 0.0;
   all_ += 1.0;
   if (all_ <= params_.kept) return;
   broad_ *= params_.kept / all_;

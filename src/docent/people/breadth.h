@@ -6,7 +6,7 @@ namespace docent::people {
 
 /// How broad people look at the height of the lasers.
 struct BreadthParams {
-  double broad = 0.25;    ///< [m], > 0: radius of what looks broad; legs seldom do, plants, pillars and bodies do
+  double broad = 0.22;    ///< [m], > 0: without a gap; one leg never is, stools, plants, pillars and bodies are
   double at_first = 0.5;  ///< 0..1: share of people who look broad before any were seen
   double trust = 60.0;    ///< > 0: sightings that `at_first` is worth: those of two persons
   int from = 10;          ///< sightings of somebody before they tell how broad they are
@@ -30,9 +30,9 @@ class Breadth {
  public:
   explicit Breadth(const BreadthParams& params);  ///< @pre params are valid
 
-  /// Somebody who surely is a person was seen. `sightings`: so far; `radius` [m].
-  void learn(int sightings, double radius);
-  [[nodiscard]] bool is_broad(double radius) const { return radius > params_.broad; }  ///< [m]
+  /// Somebody who surely is a person was seen. `sightings`: so far; `breadth` [m] of theirs.
+  void learn(int sightings, double breadth);
+  [[nodiscard]] bool is_broad(double breadth) const { return breadth > params_.broad; }  ///< [m]
   /// Share of people who look broad.
   [[nodiscard]] double share() const { return broad_ / all_; }
 

@@ -5,12 +5,12 @@
 namespace docent::people {
 namespace {
 
-constexpr double kLegs = 0.18;  // [m]
-constexpr double kBody = 0.27;  // [m]
+constexpr double kLegs = 0.10;  // [m]
+constexpr double kBody = 0.35;  // [m]
 
-void see(Breadth& breadth, int people, double radius, int sightings = 100) {
+void see(Breadth& breadth, int people, double width, int sightings = 100) {
   for (int i = 0; i < people; ++i)
-    for (int n = 1; n <= sightings; ++n) breadth.learn(n, radius);
+    for (int n = 1; n <= sightings; ++n) breadth.learn(n, width);
 }
 
 TEST(Breadth, LearnsWhatPeopleLookLike) {

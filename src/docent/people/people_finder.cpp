@@ -70,7 +70,7 @@ void PeopleFinder::watch_things(const Sightlines& sightlines, const Pose2& map_f
 void PeopleFinder::learn_breadth(Time time) {
   for (const PersonTrack& track : tracker_.tracks())
     if (track.is_alive() && tracker_.is_confirmed(track) && track.is_seen_now(time))
-      breadth_.learn(track.sightings, track.radius);
+      breadth_.learn(track.sightings, track.breadth);
 }
 
 bool PeopleFinder::is_person(const PersonTrack& track, const std::optional<Pose2>& map_from_odom) const {
@@ -81,7 +81,7 @@ bool PeopleFinder::is_person(const PersonTrack& track, const std::optional<Pose2
   if (track.thing_gain > (track.is_alive() ? kSurelyThing : kRatherThing)) return false;
   if (track.is_alive()) return true;
   // Hardly anybody here looks so broad, and things do.
-  if (breadth_.is_broad(track.radius) && params_.things.person_odds * breadth_.share() < 1.0) return false;
+  if (breadth_.is_broad(track.breadth) && params_.things.person_odds * breadth_.share() < 1.0) return false;
   return track.by_map > kHalf;
 }
 

@@ -74,6 +74,7 @@ void PeopleTracker::correct(PersonTrack& track, const PersonSighting& sighting) 
   if (sighting.is_mapped) track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
   track.thing_gain += kShare * (std::clamp(sighting.thing_gain, -kMostGain, kMostGain) - track.thing_gain);
   track.radius += kRadiusShare * (sighting.radius - track.radius);
+  track.breadth += kRadiusShare * (sighting.breadth - track.breadth);
   // What slides along an unmapped face does not stand where the floor was free.
   const bool is_away = sighting.has_come && distance(track.person.position, track.anchor) > params_.step;
   track.away = is_away ? track.away + 1 : 0;
@@ -104,6 +105,7 @@ void PeopleTracker::begin(const PersonSighting& sighting) {
   track.pp = params_.sighting_noise * params_.sighting_noise;
   track.vv = 1.0;
   track.radius = sighting.radius;
+  track.breadth = sighting.breadth;
   track.seen = time_;
   track.anchor = sighting.position;
   track.come = sighting.has_come ? 1.0 : 0.0;

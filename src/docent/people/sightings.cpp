@@ -109,6 +109,14 @@ void keep_what_may_be_people(std::vector<Run>& runs, const Isolation& isolation,
   });
 }
 
+/// Neighbouring beams that end on one face: no beam passes between them, and none meets another leg behind.
+bool is_unbroken(const Point& a, const Point& b) {
+  constexpr double kStep = 0.08;                       // [m]
+  constexpr double kBetween = 0.12;                    // [m] beams of a degree at 6 m
+  const bool are_neighbours = b.order <= a.order + 1;  // less where bearings wrap round
+  return are_neighbours && std::abs(b.range - a.range) < kStep && distance(a.at, b.at) < kBetween;
+}
+
 PersonSighting sighting_of(const Run& run, const Body& body, double thing_gain, const FreeMemory& memory,
                            const SightingParams& params) {
   constexpr double kRim = 0.15;    // [m]
@@ -119,8 +127,13 @@ PersonSighting sighting_of(const Run& run, const Body& body, double thing_gain, 
   int by_map = 0;
   int come = 0;
   int things = 0;
+  const Point* first = nullptr;  // of an unbroken piece
+  const Point* last = nullptr;
   for (const Point& point : run) {
     if (!run.are_legs && std::abs(distance(point.at, body.centre) - body.radius) > kRim) continue;
+    if (last == nullptr || !is_unbroken(*last, point)) first = &point;
+    last = &point;
+    sighting.breadth = std::max(sighting.breadth, distance(first->at, point.at));
     ++sighting.points;
     by_map += point.by_map ? 1 : 0;
     sighting.is_mapped = sighting.is_mapped || point.is_mapped;
@@ -168,6 +181,7 @@ void join_near(std::vector<PersonSighting>& people) {
       const double share = static_cast<double>(other.points) / (one.points + other.points);
       one.position = one.position + share * (other.position - one.position);
       one.radius = std::max(one.radius, other.radius);
+      one.breadth = std::max(one.breadth, other.breadth);
       one.points += other.points;
       one.by_map = one.by_map || other.by_map;
       one.is_mapped = one.is_mapped || other.is_mapped;

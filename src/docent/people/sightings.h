@@ -42,6 +42,7 @@ struct PeopleSweep {
 struct PersonSighting {
   Point2 position;          ///< [m] of its middle, odom
   double radius = 0.22;     ///< [m] that fits best
+  double breadth = 0.0;     ///< [m] of its widest piece without a gap or a step: of one leg, or of a body
   int points = 0;           ///< beams on it
   bool by_map = false;      ///< half of them or more are surely not the map
   bool is_mapped = false;   ///< the map could tell

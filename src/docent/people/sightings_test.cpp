@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "docent/people/breadth.h"
 #include "docent/people/testing.h"
 
 namespace docent::people {
@@ -67,6 +68,29 @@ TEST(FindPeople, WithoutAMapOnlyWhatStandsByItself) {
   ASSERT_EQ(people.size(), 1U);
   EXPECT_LT(distance(people[0].position, {2.0, 1.0}), 0.15);
   EXPECT_FALSE(people[0].by_map);
+}
+
+TEST(FindPeople, OneLegIsNarrowAndAStoolIsBroad) {
+  Rng rng{2};
+  double breadths = 0.0;
+  int stools = 0;
+  for (int i = 0; i < 50; ++i) {
+    Scene scene{&rng};
+    const double range = rng.uniform(0.8, 3.0);
+    scene.add_disc({range, 0.1}, 0.07);
+    scene.add_disc({range, -0.1}, 0.07);
+    scene.add_disc({-range, 0.0}, 0.18);  // where bearings wrap round
+    for (const PersonSighting& sighting : seen_in(scene.sweep())) {
+      if (sighting.position.x > 0.0) {
+        EXPECT_LT(sighting.breadth, 0.2) << range;
+        continue;
+      }
+      breadths += sighting.breadth;
+      ++stools;
+    }
+  }
+  ASSERT_GT(stools, 40);
+  EXPECT_GT(breadths / stools, BreadthParams{}.broad);
 }
 
 TEST(FindPeople, APieceOfABenchIsAPieceOfABench) {
