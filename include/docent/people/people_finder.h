@@ -6,6 +6,7 @@
 
 #include "docent/base/result.h"
 #include "docent/base/time.h"
+#include "docent/people/breadth.h"
 #include "docent/people/free_memory.h"
 #include "docent/people/groups.h"
 #include "docent/people/people_tracker.h"
@@ -19,6 +20,7 @@ struct PeopleFinderParams {
   SightingParams sightings;     ///< what looks like a person
   PeopleTrackerParams tracker;  ///< from sightings to persons
   StandingThingParams things;   ///< what stands too long is a thing
+  BreadthParams breadth;        ///< what is broader than people here is a thing
   GroupParams groups;           ///< who belongs together
   bool keeps_all = false;       ///< crippled, for evaluation: nobody is ever forgotten, and every thing is a person
   template <class V>
@@ -26,6 +28,7 @@ struct PeopleFinderParams {
     v("sightings", sightings);
     v("tracker", tracker);
     v("things", things);
+    v("breadth", breadth);
     v("groups", groups);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -45,12 +48,14 @@ class PeopleFinder {
   [[nodiscard]] const std::vector<std::uint32_t>& groups() const { return groups_; }  ///< [people], see Groups
  private:
   void watch_things(const Sightlines& sightlines, const Pose2& map_from_odom, const Pose2& odom_from_base, Time time);
+  void learn_breadth(Time time);
   [[nodiscard]] bool is_person(const PersonTrack& track, const std::optional<Pose2>& map_from_odom) const;
 
   PeopleFinderParams params_;
   FreeMemory memory_;
   PeopleTracker tracker_;
   StandingThings things_;
+  Breadth breadth_;
   Groups grouping_;
   std::optional<Pose2> odom_from_base_;  ///< of the last sweep
   std::vector<TrackedPerson> people_;

@@ -22,6 +22,8 @@ struct PeopleTrackerParams {
   double patience_hidden = 2.0;   ///< [s] hidden behind others
   double fastest = 2.5;           ///< [m/s] that a person can move
   double step = 0.45;             ///< [m] away from where they were first seen: moves, and is no thing
+  double beside = 0.4;            ///< [m], >= 0: who begins so near to somebody may be their other leg
+  int beside_sightings = 4;       ///< more of them, both seen at once, before such a one counts
   template <class V>
   void visit(V& v) {
     v("gate", gate);
@@ -33,6 +35,8 @@ struct PeopleTrackerParams {
     v("patience_hidden", patience_hidden);
     v("fastest", fastest);
     v("step", step);
+    v("beside", beside);
+    v("beside_sightings", beside_sightings);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -49,7 +53,9 @@ struct PersonTrack {
   TrackedPerson person;                 ///< the estimate
   double pp = 0.0, pv = 0.0, vv = 0.0;  ///< covariance of position and velocity along an axis
   double radius = 0.22;                 ///< [m]
+  double breadth = 0.0;                 ///< [m] running mean, see PersonSighting
   int sightings = 1;                    ///< so far
+  int doubts = 0;                       ///< sightings that it lacks yet, having begun beside somebody
   double missed = 0.0;                  ///< 0..1 of the patience
   Time seen;                            ///< last
   Point2 anchor;                        ///< [m] where it was first seen, or last stood
@@ -78,13 +84,16 @@ class PeopleTracker {
   [[nodiscard]] const std::vector<PersonTrack>& tracks() const { return tracks_; }  ///< by falling age
   [[nodiscard]] std::vector<Point2> places() const;  ///< where those are who were seen often enough
   /// Seen often enough to be told of.
-  [[nodiscard]] bool is_confirmed(const PersonTrack& track) const { return track.sightings >= params_.sightings; }
+  [[nodiscard]] bool is_confirmed(const PersonTrack& track) const {
+    return track.sightings >= params_.sightings && track.doubts == 0;
+  }
   void clear() { tracks_.clear(); }  ///< forgets all
 
  private:
   void correct(PersonTrack& track, const PersonSighting& sighting) const;
   void miss(PersonTrack& track, const Sightlines& sightlines) const;
   void begin(const PersonSighting& sighting);
+  void doubt_second_legs();
 
   PeopleTrackerParams params_;
   std::vector<PersonTrack> tracks_;

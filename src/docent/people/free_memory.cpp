@@ -71,7 +71,8 @@ inline FreeMemory::Cell& FreeMemory::touch(std::int32_t column, std::int32_t row
   return cell;
 }
 
-void FreeMemory::add(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_base, Time time) {
+void FreeMemory::add(const sensor_models::RangeSweep& sweep, std::span<const sensor_models::BeamOrigin> origins,
+                     const Pose2& odom_from_base, Time time) {
   const auto now = static_cast<std::int32_t>(time.nanoseconds / 100'000'000);
   if (now >= now_ && now - now_ < kEvery) return;  // every other sweep tells enough
   now_ = now;
@@ -89,13 +90,15 @@ void FreeMemory::add(const sensor_models::RangeSweep& sweep, const Pose2& odom_f
   }
   const PointTransform of_points{odom_from_base};
   // Ends after ways: where one beam ends, another may have passed a hand's breadth away.
-  for (const sensor_models::SweepBeam& beam : sweep.beams) {
+  for (std::size_t b = 0; b < sweep.beams.size(); ++b) {
+    const sensor_models::SweepBeam& beam = sweep.beams[b];
     if (beam.no_return || beam.range > kReach) continue;
     const Point2 end = of_points * sensor_models::endpoint(beam);
     Cell& cell = touch(index_of(end.x), index_of(end.y));
     cell.end = now_;
     if (cell.kind == Kind::free) cell.kind = Kind::come;
-    if (cell.kind == Kind::unknown) cell.kind = Kind::standing;
+    const bool is_mapped = origins[b] == sensor_models::BeamOrigin::map;
+    if (cell.kind == Kind::unknown || (is_mapped && cell.kind == Kind::come)) cell.kind = Kind::standing;
   }
 }
 
@@ -111,14 +114,30 @@ bool FreeMemory::has_come(Point2 in_odom) const {
     for (std::int32_t dc = -1; dc <= 1; ++dc) {
       const Cell* cell = find(column + dc, row + dr);
       if (cell == nullptr || cell->kind == Kind::unknown) continue;
-      if (cell->kind == Kind::standing) return false;
+      if (has_stood(cell)) return false;
       ++known;
     }
   }
   // The faces of walls and furniture waver from cell to cell.
   for (const auto& [dc, dr] : kApart)
-    if (const Cell* cell = find(column + dc, row + dr); cell != nullptr && cell->kind == Kind::standing) return false;
+    if (has_stood(find(column + dc, row + dr))) return false;
   return known >= kMost;
+}
+
+void FreeMemory::mark_thing(Point2 in_odom) {
+  Cell& cell = touch(index_of(in_odom.x), index_of(in_odom.y));
+  if (cell.kind != Kind::come) cell.kind = Kind::thing;
+}
+
+bool FreeMemory::is_thing(Point2 in_odom) const {
+  const std::int32_t column = index_of(in_odom.x);
+  const std::int32_t row = index_of(in_odom.y);
+  const Cell* here = find(column, row);
+  if (here == nullptr || here->kind == Kind::come) return false;
+  for (std::int32_t dr = -1; dr <= 1; ++dr)
+    for (std::int32_t dc = -1; dc <= 1; ++dc)
+      if (const Cell* cell = find(column + dc, row + dr); cell != nullptr && cell->kind == Kind::thing) return true;
+  return false;
 }
 
 }  // namespace docent::people

@@ -7,10 +7,10 @@
 namespace docent::people {
 namespace {
 
-void watch(FreeMemory& memory, const Scene& scene, double from, double to) {
+void watch(FreeMemory& memory, const Scene& scene, double from, double to, bool knows = false) {
   for (double t = from; t < to; t += 0.1) {
-    const PeopleSweep seen = scene.sweep(false);
-    memory.add(seen.sweep, seen.odom_from_base, time_from_seconds(t));
+    const PeopleSweep seen = scene.sweep(knows);
+    memory.add(seen.sweep, seen.origins, seen.odom_from_base, time_from_seconds(t));
   }
 }
 
@@ -46,6 +46,47 @@ TEST(FreeMemory, LeavesNoHoleBetweenTheBeamsOfAnEmptyHall) {
       EXPECT_TRUE(memory.has_come((1.0 - 0.2 / away) * place)) << away << " m, " << i;
     }
   }
+}
+
+TEST(FreeMemory, TheRimOfWhatTheMapHoldsHasNotCome) {
+  Scene before;
+  before.add_wall({5.0, -4.0}, {5.0, 4.0}, true);
+  Scene after = before;
+  after.add_wall({2.5, -0.2}, {2.5, 1.0}, true);  // a panel that beams passed as long as they grazed it
+  for (const bool knows : {true, false}) {
+    FreeMemory memory;
+    watch(memory, before, 0.0, 1.0, knows);
+    watch(memory, after, 1.0, 2.0, knows);
+    EXPECT_EQ(memory.has_come({2.5, 0.0}), !knows);
+  }
+}
+
+TEST(FreeMemory, RemembersAThingUntilBeamsPass) {
+  FreeMemory memory;
+  Scene bench;
+  bench.add_wall({2.53, -0.9}, {2.53, 0.9});
+  watch(memory, bench, 0.0, 1.0);
+  EXPECT_FALSE(memory.is_thing({2.53, 0.0}));
+  memory.mark_thing({2.53, 0.0});
+  EXPECT_TRUE(memory.is_thing({2.53, 0.0}));
+  EXPECT_TRUE(memory.is_thing({2.53, 0.1})) << "the next cell";
+  EXPECT_FALSE(memory.is_thing({2.53, 0.4}));
+  watch(memory, bench, 1.0, 5.0);
+  EXPECT_TRUE(memory.is_thing({2.53, 0.0}));
+  watch(memory, Scene{}, 5.0, 8.0);
+  EXPECT_FALSE(memory.is_thing({2.53, 0.0}));
+}
+
+TEST(FreeMemory, WhoHasComeIsNoThing) {
+  FreeMemory memory;
+  watch(memory, Scene{}, 0.0, 1.0);
+  Scene after;
+  after.add_disc({2.55, 0.05}, 0.2);
+  watch(memory, after, 1.0, 2.0);
+  ASSERT_TRUE(memory.has_come({2.35, 0.05}));
+  memory.mark_thing({2.35, 0.05});
+  EXPECT_FALSE(memory.is_thing({2.35, 0.05}));
+  EXPECT_TRUE(memory.has_come({2.35, 0.05}));
 }
 
 TEST(FreeMemory, ForgetsAfterAWhile) {

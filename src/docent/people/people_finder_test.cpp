@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "docent/people/testing.h"
 
@@ -93,6 +94,37 @@ TEST(PeopleFinder, ABenchIsNobodyAndAPlantIsSomebodyForAWhile) {
     }
   }
   EXPECT_TRUE(finder.people().empty());
+}
+
+/// Two legs that walk along y, in odometry's frame.
+void add_walker(Scene& scene, Point2 at, double phase) {
+  const double stride = 0.15 * std::sin(phase);
+  scene.add_disc({at.x - 0.09, at.y + stride}, 0.06);
+  scene.add_disc({at.x + 0.09, at.y - stride}, 0.06);
+}
+
+TEST(PeopleFinder, WhereLasersMeetLegsPlantsAndStoolsAreNobody) {
+  const Point2 plant{1.5, 2.0};
+  const Point2 stool{-1.5, 2.0};
+  const auto things_taken_for_people = [&](double body) {
+    Rng rng{7};
+    PeopleFinder finder{{}};
+    for (int i = 0; i < 600; ++i) {
+      const double t = 0.1 * i;
+      Scene scene = hall(rng);
+      scene.add_disc(plant, 0.28);
+      scene.add_disc(stool, 0.16);
+      for (int passer = 0; passer < 2; ++passer) {  // one after the other
+        const Point2 at{2.2 + passer, -3.6 + std::fmod(0.8 * t + 3.0 * passer, 7.2)};
+        if (body > 0.0) scene.add_disc(at, body);
+        if (body <= 0.0) add_walker(scene, at, 6.0 * t);
+      }
+      finder.update(scene.sweep(), kMapFromOdom, time_from_seconds(t));
+    }
+    return (finds(finder, plant) ? 1 : 0) + (finds(finder, stool) ? 1 : 0);
+  };
+  EXPECT_EQ(things_taken_for_people(0.0), 0);
+  EXPECT_EQ(things_taken_for_people(0.27), 2) << "where they meet bodies they may be people";
 }
 
 TEST(PeopleFinder, WhoCameAndStandsForLongStaysAPerson) {

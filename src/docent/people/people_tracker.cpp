@@ -20,6 +20,7 @@ constexpr double kSeemsToStand = 0.25;  // [m/s]
 constexpr double kNewcomer = 0.15;      // [m] that a track must be nearer than a confirmed one
 constexpr double kMostGain = 6.0;       // [nat] that one sighting says
 constexpr double kRadiusShare = 0.1;
+constexpr double kApart = 0.1;  // [m] beyond `beside`: who gets so far away is no leg
 
 }  // namespace
 
@@ -32,6 +33,8 @@ Result<void> PeopleTrackerParams::validate() const {
     if (!(wait > 0.0)) return fail("tracker.patience, patience_unclear and patience_hidden must be > 0");
   if (!(fastest > 0.0)) return fail("tracker.fastest must be > 0");
   if (!(step > 0.0)) return fail("tracker.step must be > 0");
+  if (!(beside >= 0.0)) return fail("tracker.beside must be >= 0");
+  if (!(beside_sightings >= 0)) return fail("tracker.beside_sightings must be >= 0");
   return {};
 }
 
@@ -71,6 +74,7 @@ void PeopleTracker::correct(PersonTrack& track, const PersonSighting& sighting) 
   if (sighting.is_mapped) track.by_map += kShare * ((sighting.by_map ? 1.0 : 0.0) - track.by_map);
   track.thing_gain += kShare * (std::clamp(sighting.thing_gain, -kMostGain, kMostGain) - track.thing_gain);
   track.radius += kRadiusShare * (sighting.radius - track.radius);
+  track.breadth += kRadiusShare * (sighting.breadth - track.breadth);
   // What slides along an unmapped face does not stand where the floor was free.
   const bool is_away = sighting.has_come && distance(track.person.position, track.anchor) > params_.step;
   track.away = is_away ? track.away + 1 : 0;
@@ -101,12 +105,39 @@ void PeopleTracker::begin(const PersonSighting& sighting) {
   track.pp = params_.sighting_noise * params_.sighting_noise;
   track.vv = 1.0;
   track.radius = sighting.radius;
+  track.breadth = sighting.breadth;
   track.seen = time_;
   track.anchor = sighting.position;
   track.come = sighting.has_come ? 1.0 : 0.0;
   track.by_map = sighting.by_map ? 1.0 : 0.0;
   track.thing_gain = std::clamp(sighting.thing_gain, -kMostGain, kMostGain);
+  const bool is_beside = std::any_of(tracks_.begin(), tracks_.end(), [&](const PersonTrack& other) {
+    return is_confirmed(other) && distance(other.person.position, sighting.position) < params_.beside;
+  });
+  if (is_beside) track.doubts = params_.beside_sightings;
   tracks_.push_back(track);
+}
+
+void PeopleTracker::doubt_second_legs() {
+  for (PersonTrack& track : tracks_) {
+    if (track.doubts == 0 || !track.is_seen_now(time_)) continue;
+    const PersonTrack* nearest = nullptr;
+    double least = params_.beside + kApart;
+    for (const PersonTrack& other : tracks_) {
+      if (!is_confirmed(other)) continue;
+      const double off = distance(other.person.position, track.person.position);
+      if (off > least) continue;
+      least = off;
+      nearest = &other;
+    }
+    if (nearest == nullptr) {
+      track.doubts = 0;
+    } else if (nearest->is_seen_now(time_)) {
+      --track.doubts;
+    } else {
+      track.doubts = params_.beside_sightings;  // the leg that was seen may be this one
+    }
+  }
 }
 
 void PeopleTracker::update(std::span<const PersonSighting> sightings, const Sightlines& sightlines) {
@@ -126,6 +157,7 @@ void PeopleTracker::update(std::span<const PersonSighting> sightings, const Sigh
     track_taken[t] = sighting_taken[s] = true;
     correct(tracks_[t], sightings[s]);
   }
+  doubt_second_legs();
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (track_taken[t]) continue;
     miss(tracks_[t], sightlines);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "docent/base/random.h"
 #include "docent/people/testing.h"
 
@@ -88,6 +90,34 @@ TEST(PeopleTracker, KeepsWhoIsHiddenForAMoment) {
   ASSERT_EQ(tracker.tracks().size(), 1U);
   EXPECT_EQ(tracker.tracks()[0].person.id, 1U);
   EXPECT_NEAR(tracker.tracks()[0].person.position.x, 1.9, 0.15);
+}
+
+TEST(PeopleTracker, ASecondLegIsNobody) {
+  PeopleTracker tracker{{}};
+  int most = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.08 * i;
+    const double stride = i % 16 < 8 ? 0.17 : -0.17;
+    std::vector<Point2> seen{{x, 0.0}};
+    if (i > 10 && i % 8 < 4) seen = {{x + stride, 0.1}, {x - stride, -0.1}};  // legs apart, and together again
+    step(tracker, 0.1 * i, seen);
+    most = std::max(most, static_cast<int>(tracker.places().size()));
+  }
+  EXPECT_EQ(most, 1);
+  EXPECT_EQ(tracker.tracks()[0].person.id, 1U);
+}
+
+TEST(PeopleTracker, WhoStepsOutFromBesideSomebodyIsSomebody) {
+  PeopleTracker tracker{{}};
+  for (int i = 0; i < 10; ++i) step(tracker, 0.1 * i, {{2.0, 0.0}});
+  for (int i = 10; i < 13; ++i) step(tracker, 0.1 * i, {{2.0, 0.0}, {2.0, 0.38}});
+  EXPECT_EQ(tracker.places().size(), 1U);
+  for (int i = 13; i < 16; ++i) step(tracker, 0.1 * i, {{2.0, 0.0}, {2.0, 0.38}});
+  EXPECT_EQ(tracker.places().size(), 2U) << "both are seen all the time";
+  PeopleTracker other{{}};
+  for (int i = 0; i < 10; ++i) step(other, 0.1 * i, {{2.0, 0.0}});
+  for (int i = 10; i < 13; ++i) step(other, 0.1 * i, {{2.0, 0.0}, {2.0, 0.38 + 0.15 * (i - 10)}});
+  EXPECT_EQ(other.places().size(), 2U) << "goes away";
 }
 
 }  // namespace

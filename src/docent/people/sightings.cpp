@@ -109,23 +109,49 @@ void keep_what_may_be_people(std::vector<Run>& runs, const Isolation& isolation,
   });
 }
 
-PersonSighting sighting_of(const Run& run, const Body& body) {
-  constexpr double kRim = 0.15;  // [m]
+/// Neighbouring beams that end on one face: no beam passes between them, and none meets another leg behind.
+bool is_unbroken(const Point& a, const Point& b) {
+  constexpr double kStep = 0.08;                       // [m]
+  constexpr double kBetween = 0.12;                    // [m] beams of a degree at 6 m
+  const bool are_neighbours = b.order <= a.order + 1;  // less where bearings wrap round
+  return are_neighbours && std::abs(b.range - a.range) < kStep && distance(a.at, b.at) < kBetween;
+}
+
+PersonSighting sighting_of(const Run& run, const Body& body, double thing_gain, const FreeMemory& memory,
+                           const SightingParams& params) {
+  constexpr double kRim = 0.15;    // [m]
+  constexpr double kPiece = 10.0;  // [nat] that a piece of a thing is rather a thing
   PersonSighting sighting;
   sighting.position = body.centre;
   sighting.radius = body.radius;
   int by_map = 0;
   int come = 0;
+  int things = 0;
+  const Point* first = nullptr;  // of an unbroken piece
+  const Point* last = nullptr;
   for (const Point& point : run) {
     if (!run.are_legs && std::abs(distance(point.at, body.centre) - body.radius) > kRim) continue;
+    if (last == nullptr || !is_unbroken(*last, point)) first = &point;
+    last = &point;
+    sighting.breadth = std::max(sighting.breadth, distance(first->at, point.at));
     ++sighting.points;
     by_map += point.by_map ? 1 : 0;
     sighting.is_mapped = sighting.is_mapped || point.is_mapped;
     come += point.has_come ? 1 : 0;
+    things += !point.has_come && memory.is_thing(point.at) ? 1 : 0;
   }
   sighting.by_map = by_map > 0 && 2 * by_map >= sighting.points;
   sighting.has_come = come > 0 && 2 * come >= sighting.points;
+  sighting.thing_gain = thing_gain;
+  if (!sighting.has_come && things > params.part_of_thing * sighting.points) sighting.thing_gain = kPiece;
   return sighting;
+}
+
+/// What was there before and shows itself to be a thing.
+void remember_thing(const Run& run, double thing_gain, FreeMemory& memory, const SightingParams& params) {
+  if (thing_gain <= params.surely_thing) return;
+  if (std::any_of(run.begin(), run.end(), [](const Point& point) { return point.has_come; })) return;
+  for (const Point& point : run) memory.mark_thing(point.at);
 }
 
 /// Two legs are one body, unless two people are known to stand there, one half hidden.
@@ -155,6 +181,7 @@ void join_near(std::vector<PersonSighting>& people) {
       const double share = static_cast<double>(other.points) / (one.points + other.points);
       one.position = one.position + share * (other.position - one.position);
       one.radius = std::max(one.radius, other.radius);
+      one.breadth = std::max(one.breadth, other.breadth);
       one.points += other.points;
       one.by_map = one.by_map || other.by_map;
       one.is_mapped = one.is_mapped || other.is_mapped;
@@ -172,11 +199,13 @@ Result<void> SightingParams::validate() const {
   if (!(least_points >= 1)) return fail("sightings.least_points must be >= 1");
   if (!(legs_apart >= 0.0)) return fail("sightings.legs_apart must be >= 0");
   if (!(one_person > 0.0)) return fail("sightings.one_person must be > 0");
+  if (!(surely_thing > 0.0)) return fail("sightings.surely_thing must be > 0");
+  if (!(part_of_thing >= 0.0 && part_of_thing <= 1.0)) return fail("sightings.part_of_thing must be in 0..1");
   return {};
 }
 
-std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemory& memory,
-                                        std::span<const Point2> known, const SightingParams& params) {
+std::vector<PersonSighting> find_people(const PeopleSweep& seen, FreeMemory& memory, std::span<const Point2> known,
+                                        const SightingParams& params) {
   const std::vector<std::size_t> order = by_bearing(seen.sweep);
   // Beams that the map explains part the runs; those it knows nothing of are looked at apart.
   std::vector<Point> unmapped;
@@ -211,10 +240,10 @@ std::vector<PersonSighting> find_people(const PeopleSweep& seen, const FreeMemor
     points.clear();
     for (const Point& point : run) points.push_back(point.at);
     BodyFit fit = fit_bodies(points, seen.odom_from_base.position(), known);
+    remember_thing(run, fit.thing_gain, memory, params);
     if (run.are_legs) join_bodies(fit, points, seen.odom_from_base.position(), known);
     for (const Body& body : fit.bodies) {
-      PersonSighting sighting = sighting_of(run, body);
-      sighting.thing_gain = fit.thing_gain;
+      const PersonSighting sighting = sighting_of(run, body, fit.thing_gain, memory, params);
       if (sighting.points >= params.least_points) people.push_back(sighting);
     }
   }
