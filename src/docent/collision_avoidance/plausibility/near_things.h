@@ -28,7 +28,7 @@ struct NearThingsParams {
   double flank = 0.05;     ///< [m] beyond the readings beside it a gap's thing was before
   double gap_known = 0.6;  ///< of a gap's samples were that near
   double proves = 30.0;    ///< [s] for which a reading proves that the scanner sees as near as that: between people's
-                         ///< legs gaps come and go
+                           ///< legs gaps come and go
 };
 
 /// Things that came up to a scanner's min_range and of which it then said that nothing is there: they are, until beams

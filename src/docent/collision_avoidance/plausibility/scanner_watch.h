@@ -171,8 +171,8 @@ class ScannerWatch {
   /// The ring has borne the scanner out, and every sweep since was as the one before let expect.
   [[nodiscard]] bool is_glass(const RangeLaw& law) const;
   void judge_by_walls(const SweepView& view);
-  /// An offset from the start, by what passes by while the robot drives; where a ring hears, it tells sooner, and crowds
-  /// that pass by do not deceive it.
+  /// An offset from the start, by what passes by while the robot drives; where a ring hears, it tells sooner, and
+  /// crowds that pass by do not deceive it.
   void judge_by_parallax(const SweepView& view);
   void judge_silence(const SweepView& view);
   /// Walls that other beams saw a moment ago: who turns brings them into a sector that has been blind all the while.

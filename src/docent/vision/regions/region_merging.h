@@ -33,11 +33,11 @@ struct Segmentation {
   std::vector<Region> regions;  ///< the largest first
 };
 
-/// Divides a picture into homogeneous connected regions by merging neighbours, the second stage of [Buhmann1995]: of all
-/// partitions it looks for the one with the least sum of the regions' inhomogeneities and of what each region costs.
-/// Two neighbours A and B are merged where the costs after are less: where n_A n_B / (n_A + n_B) min(d², most_unlike) <
-/// a_region, d the weighted difference of their means; the pair that saves most first. Equal pairs in the order of
-/// their places: deterministic. O(n log n) in sites.
+/// Divides a picture into homogeneous connected regions by merging neighbours, the second stage of [Buhmann1995]: of
+/// all partitions it looks for the one with the least sum of the regions' inhomogeneities and of what each region
+/// costs. Two neighbours A and B are merged where the costs after are less: where n_A n_B / (n_A + n_B) min(d²,
+/// most_unlike) < a_region, d the weighted difference of their means; the pair that saves most first. Equal pairs in
+/// the order of their places: deterministic. O(n log n) in sites.
 [[nodiscard]] Segmentation merge_regions(const Sites& sites, const RegionMergingParams& params = {});
 
 }  // namespace docent::vision
