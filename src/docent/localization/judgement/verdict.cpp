@@ -128,8 +128,9 @@ void Verdict::add(const Evidence& evidence) {
 void Verdict::look(const Glance& glance) {
   constexpr double kMemory = 0.1;
   glance_ = glance;
-  hidden_ = std::max(0.0, glance.shorter - shorter_);
-  shorter_ += kMemory * (glance.shorter - shorter_);
+  // In the middle of a hall hardly a wall is within reach: as many as are needed now, one fewer then, and nobody came.
+  hidden_ = glance.tells() ? std::max(0.0, glance.shorter - shorter_) : 0.0;
+  if (glance.tells()) shorter_ += kMemory * (glance.shorter - shorter_);
   unmapped_ += kMemory * (glance.unmapped - unmapped_);
 
   constexpr int kPatience = 8;          // glances: somebody who steps before the robot is a doubt for less

@@ -232,5 +232,15 @@ TEST(Verdict, PeopleAllRoundDoNot) {
   EXPECT_TRUE(verdict.localized());
 }
 
+TEST(Verdict, AWallMoreOrLessWithinReachIsNobodyWhoHasCome) {
+  Verdict verdict = sure();
+  for (int i = 0; i < 40; ++i) {
+    verdict.look({0.0, 0.0, 0.0, 9});  // too few to tell
+    verdict.look({0.0, 0.8, 0.0, 10});
+  }
+  EXPECT_LT(verdict.hidden(), 0.1);
+  EXPECT_TRUE(verdict.localized());
+}
+
 }  // namespace
 }  // namespace docent::localization
