@@ -116,7 +116,7 @@ Result<std::vector<ObjectFolder>> object_folders(const fs::path& path) {
 }
 
 pictures::Figure draw_regions(const pictures::Image& picture, const SeenPicture& seen, const std::string& title) {
-  constexpr pictures::Color kOutline{220, 0, 90, 255};
+  static constexpr pictures::Color kOutline{220, 0, 90, 255};
   pictures::Figure figure{title};
   add_panel(figure, picture, picture, "the picture");
   const vision::Segmentation found = vision::merge_regions(seen.sites);

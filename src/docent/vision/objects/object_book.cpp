@@ -156,7 +156,7 @@ Result<ObjectBook> ObjectBook::learn(std::span<const Example> examples, const Ob
     learned.examples = own.size();
     const Gaussian gaussian = regularized(moments[c], pooled, best_how);
     std::copy(gaussian.mean.begin(), gaussian.mean.end(), learned.mean.begin());
-    learned.inverse.assign(gaussian.inverse.data(), gaussian.inverse.data() + kSize * kSize);
+    learned.inverse.assign(gaussian.inverse.data(), gaussian.inverse.data() + gaussian.inverse.size());
     learned.log_volume = gaussian.log_volume;
     std::vector<double>& distances = best.distances[c++];
     std::sort(distances.begin(), distances.end());

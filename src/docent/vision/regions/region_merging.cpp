@@ -26,7 +26,7 @@ struct Sums {
 
 class Merger {
  public:
-  Merger(const Sites& sites, const RegionMergingParams& params) : sites_{sites}, params_{params} {
+  Merger(const Sites& sites, const RegionMergingParams& params) : params_{params} {
     for (const Site& site : sites.cells) {
       const double l = site.luminance, r = site.red_green, y = site.yellow_blue;
       sums_.push_back({1.0, l, r, y, params.luminance * l * l + params.colour * (r * r + y * y)});
@@ -109,7 +109,6 @@ class Merger {
     for (const std::size_t other : around) offer(a, other);
   }
 
-  const Sites& sites_;
   const RegionMergingParams params_;
   std::vector<Sums> sums_;         ///< [sites] of the regions' roots
   std::vector<std::size_t> next_;  ///< [sites] towards the root
