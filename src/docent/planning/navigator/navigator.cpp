@@ -11,6 +11,7 @@ constexpr int kStepsAPath = 5;     ///< the page sees the path at 1 Hz
 constexpr int kValueCoarsening = 2;
 constexpr double kCellOfMap = 0.05;                          ///< [m]
 constexpr Duration kLedByHandFor = std::chrono::seconds{3};  ///< until the avoidance goes its own way again
+constexpr double kFarthest = 1e5;  ///< [m] that is told of a goal, which may be no place of this world
 
 }  // namespace
 
@@ -85,7 +86,8 @@ Orders Navigator::step(const Whereabouts& where, Time now) {
   const auto here = where.is_known(now) ? where.map_from_base() : std::nullopt;
   orders.report = pursuit_.step(here, route_, now);
   if (here && has_goal())
-    orders.report.straight_m = distance(here->position(), pursuit_.goal().map_from_goal.position());
+    orders.report.straight_m =
+        std::min(kFarthest, distance(here->position(), pursuit_.goal().map_from_goal.position()));
   orders.report.is_occupied =
       has_goal() && live_.stands_within(pursuit_.goal().map_from_goal.position(), robot_radius_);
   orders.aim = aim_of(orders.report, pursuit_.goal(), where.map_from_odom);
