@@ -14,11 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kLongestSide = 16384;      // [pixels] that an image holds; telephones make 12,000
 constexpr int kLeastSide = 32;           // [pixels] of a picture that shows anything
 constexpr double kFineRegions = 3000.0;  // RegionMergingParams::a_region: a clear bottle is hardly unlike its ground
 constexpr double kPanel = 260.0;         // [points] height of each half of the figure
 
+/// Some systems leave "._NAME.jpg" beside what they copy: no picture.
 bool is_jpeg(const fs::path& path) {
+  if (path.filename().string().starts_with('.')) return false;
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -88,7 +91,8 @@ SeenPicture see(const pictures::Image& picture) {
 Result<pictures::Image> read_picture(const fs::path& path) {
   const auto file = read_file(path);
   if (!file) return tl::unexpected<Error>(file.error());
-  auto picture = pictures::decode_jpeg({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
+  auto picture =
+      pictures::decode_jpeg({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()}, kLongestSide);
   if (!picture) return fail(path.string() + ": " + picture.error().message);
   if (std::min(picture->width(), picture->height()) < kLeastSide)
     return fail(path.string() + ": is " + std::to_string(picture->width()) + " x " + std::to_string(picture->height()) +

@@ -238,7 +238,7 @@ Result<ObjectBook> ObjectBook::load(const std::filesystem::path& path) {
       book.classes_.push_back(std::move(known));
     }
   } catch (const nlohmann::json::exception& error) {
-    return refuse(error.what());
+    return refuse(std::string{"is no object book of docent learn-objects: "} + error.what());
   }
   if (book.classes_.empty()) return refuse("knows no objects");
   for (const double spread : book.spread_)
