@@ -1,6 +1,7 @@
 #include "docent/geometry/polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace docent {
@@ -50,11 +51,12 @@ bool contains(const Polygon& polygon, Point2 point) {
 }
 
 double outline_distance(const Polygon& polygon, Point2 point) {
-  double least = std::numeric_limits<double>::infinity();
+  double least_square = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    least = std::min(least, distance(Segment{polygon[j], polygon[i]}, point));
+    const Point2 off = nearest_point(Segment{polygon[j], polygon[i]}, point) - point;
+    least_square = std::min(least_square, dot(off, off));
   }
-  return least;
+  return std::sqrt(least_square);
 }
 
 double distance(const Polygon& polygon, Point2 point) {

@@ -42,14 +42,30 @@ OccupancyGrid coarsened(const OccupancyGrid& map, int factor) {
 
 namespace {
 
+/// [cells] to the nearest occupied cell of the same column; infinity where it has none. Row by row: a pass in order of
+/// memory each way.
+std::vector<float> cells_within_column(const GridFrame& frame, const std::vector<bool>& occupied) {
+  const auto columns = static_cast<std::size_t>(frame.columns);
+  std::vector<float> cells(frame.size(), std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (occupied[i]) {
+      cells[i] = 0.0F;
+    } else if (i >= columns) {
+      cells[i] = cells[i - columns] + 1.0F;
+    }
+  }
+  for (std::size_t i = cells.size(); i-- > columns;) cells[i - columns] = std::min(cells[i - columns], cells[i] + 1.0F);
+  return cells;
+}
+
 /// Lower envelope of parabolas: the squared distance transform of one line, in place.
 class LineTransform {
  public:
   explicit LineTransform(std::size_t longest) : sites_(longest), borders_(longest + 1), input_(longest) {}
 
-  void operator()(float* values, std::size_t count, std::size_t stride) {
+  void operator()(float* values, std::size_t count) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count; ++i) input_[i] = static_cast<double>(values[i * stride]);
+    for (std::size_t i = 0; i < count; ++i) input_[i] = static_cast<double>(values[i]);
     std::size_t used = 0;
     for (std::size_t q = 0; q < count; ++q) {
       if (input_[q] == kInfinity) continue;
@@ -73,7 +89,7 @@ class LineTransform {
     for (std::size_t q = 0; q < count; ++q) {
       while (k + 1 < used && borders_[k + 1] < static_cast<double>(q)) ++k;
       const double offset = static_cast<double>(q) - static_cast<double>(sites_[k]);
-      values[q * stride] = static_cast<float>(offset * offset + input_[sites_[k]]);
+      values[q] = static_cast<float>(offset * offset + input_[sites_[k]]);
     }
   }
 
@@ -88,13 +104,10 @@ class LineTransform {
 std::vector<float> distance_transform(const GridFrame& frame, const std::vector<bool>& occupied) {
   const auto columns = static_cast<std::size_t>(frame.columns);
   const auto rows = static_cast<std::size_t>(frame.rows);
-  std::vector<float> squared(frame.size());
-  for (std::size_t i = 0; i < squared.size(); ++i) {
-    squared[i] = occupied[i] ? 0.0F : std::numeric_limits<float>::infinity();
-  }
-  LineTransform transform{std::max(columns, rows)};
-  for (std::size_t column = 0; column < columns; ++column) transform(squared.data() + column, rows, columns);
-  for (std::size_t row = 0; row < rows; ++row) transform(squared.data() + row * columns, columns, 1);
+  std::vector<float> squared = cells_within_column(frame, occupied);
+  for (float& cells : squared) cells *= cells;
+  LineTransform transform{columns};
+  for (std::size_t row = 0; row < rows; ++row) transform(squared.data() + row * columns, columns);
   for (auto& value : squared) value = static_cast<float>(std::sqrt(static_cast<double>(value)) * frame.resolution);
   return squared;
 }

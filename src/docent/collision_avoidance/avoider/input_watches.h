@@ -46,7 +46,8 @@ class InputWatches {
   /// What the sweeps are compared with; before the first of them. @param map  null: there is none
   void know_map(const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map) {
     scanners_.clear();
-    for (const std::string& name : lasers_) scanners_.emplace_back(name, limits, map);
+    const auto walls = known_walls(map);
+    for (const std::string& name : lasers_) scanners_.emplace_back(name, limits, walls);
   }
   [[nodiscard]] std::size_t lasers() const { return lasers_.size(); }
 

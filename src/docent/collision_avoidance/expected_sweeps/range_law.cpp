@@ -56,29 +56,31 @@ Agreement agreement_of(const SweepView& seen, const Pose2& now_from_then, const 
 
 RangeLaw find_law(std::span<const float> expected, const SweepView& view, const RangeLawParams& params) {
   RangeLaw law;
-  std::vector<double> offsets;
-  std::vector<double> scales;
-  offsets.reserve(expected.size());
-  scales.reserve(expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const auto should = static_cast<double>(expected[i]);
-    if (std::isnan(should) || std::isnan(view.ranges[i])) continue;
-    if (should > params.surely_within * view.max_range) continue;
+  std::vector<float> sure{expected.begin(), expected.end()};
+  for (float& range : sure)
+    if (static_cast<double>(range) > params.surely_within * view.max_range) range = kNothing;
+  const auto is_answer = [&](std::size_t i) { return view.met(i) && sure[i] > 0.0F; };  // false for NaN
+  for (std::size_t i = 0; i < sure.size(); ++i) {
+    if (std::isnan(sure[i]) || std::isnan(view.ranges[i])) continue;
     ++law.compared;
-    if (!view.met(i) || !(should > 0.0)) continue;
+    if (!is_answer(i)) continue;
     ++law.answered;
+    const auto should = static_cast<double>(sure[i]);
     const double tolerance = params.noise + params.per_metre * should;
     const bool is_between = should >= static_cast<double>(view.nearest[i]) - tolerance &&
                             should <= static_cast<double>(view.farthest[i]) + tolerance;
     law.answered_as_expected += is_between ? 1 : 0;
-    offsets.push_back(static_cast<double>(view.ranges[i]) - should);
-    scales.push_back(static_cast<double>(view.ranges[i]) / should);
   }
-  std::vector<float> sure{expected.begin(), expected.end()};
-  for (float& range : sure)
-    if (static_cast<double>(range) > params.surely_within * view.max_range) range = kNothing;
   law.as_expected = law.as_law = count_by_law(sure, view, 1.0, 0.0, params);
-  if (static_cast<int>(offsets.size()) < params.least / 2) return law;
+  const bool is_too_well_explained = law.as_expected > params.most_as_expected * law.compared;
+  if (is_too_well_explained || law.answered < params.least / 2) return law;
+  std::vector<double> offsets;
+  std::vector<double> scales;
+  for (std::size_t i = 0; i < sure.size(); ++i) {
+    if (!is_answer(i)) continue;
+    offsets.push_back(static_cast<double>(view.ranges[i]) - static_cast<double>(sure[i]));
+    scales.push_back(static_cast<double>(view.ranges[i]) / static_cast<double>(sure[i]));
+  }
   const double offset = median(offsets);
   const double scale = median(scales);
   if (const int count = count_by_law(sure, view, 1.0, offset, params); count > law.as_law) {

@@ -54,7 +54,8 @@ struct Agreement {
 /// O(samples).
 [[nodiscard]] Agreement agreement_of(const SweepView& seen, const Pose2& now_from_then, const SweepView& now,
                                      std::vector<float>& expected, const RangeLawParams& params = {});
-/// The scale alone, or the offset alone, that most samples follow. O(samples).
+/// The scale alone, or the offset alone, that most samples follow; neither is looked for where so many are as expected
+/// that it is no lie. O(samples).
 [[nodiscard]] RangeLaw find_law(std::span<const float> expected, const SweepView& view,
                                 const RangeLawParams& params = {});
 /// True where most samples follow a law that is none of a scanner in order, and few are as they were expected.

@@ -198,10 +198,11 @@ StraightWallsCheck::Finding StraightWallsCheck::judge() {
   if (std::abs(offset_) <= params_.in_order) return Finding::in_order;
   const bool is_sure =
       std::abs(offset_) >= params_.least_offset && std::abs(offset_) >= params_.sure / std::sqrt(weights);
-  return is_sure && way_ >= params_.elsewhere && !was_in_order_ ? Finding::offset : Finding::nothing;
+  return is_sure && way_ >= params_.elsewhere ? Finding::offset : Finding::nothing;
 }
 
 StraightWallsCheck::Finding StraightWallsCheck::add(const SweepView& view) {
+  if (was_in_order_) return Finding::in_order;
   const Pose2 moved = inverse(last_) * view.odom_from_sensor;
   const double way = norm(moved.position());
   const bool is_news = way >= params_.news_way || std::abs(moved.theta.radians()) >= params_.news_turn ||

@@ -60,7 +60,8 @@ class StraightWallsCheck {
   explicit StraightWallsCheck(const StraightWallsCheckParams& params = {}) : params_{params} {}
 
   enum class Finding { nothing, in_order, offset };
-  /// One sweep. O(samples * log samples), mostly. @returns `offset` once it is sure, and with all that comes then
+  /// One sweep. O(samples * log samples), mostly. @returns `offset` once it is sure, and
+  /// with all that comes then; `in_order` from the first time on, in O(1)
   Finding add(const SweepView& view);
   [[nodiscard]] double offset() const { return offset_; }  ///< [m] of all walls
   /// The scanner is another one, or is mounted elsewhere.

@@ -84,6 +84,7 @@ ObstacleMemory::Readings ObstacleMemory::read(Sensor& sensor) const {
     }
     run = 0;
   };
+  const auto& directions = sensor.directions.of(sweep.first_bearing, sweep.bearing_step, sweep.ranges.size());
   for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
     const double range = sweep.ranges[i];
     if (!is_valid(range) || range < sweep.min_range) {  // covered, or the sensor's way to say "failed"
@@ -93,8 +94,7 @@ ObstacleMemory::Readings ObstacleMemory::read(Sensor& sensor) const {
     }
     end_run(i);
     if (range >= sweep.max_range || range > params_.reach) continue;
-    const Angle bearing = Angle::radians(sweep.first_bearing + static_cast<double>(i) * sweep.bearing_step);
-    met.places.push_back(odom_from_sensor * (range * unit(bearing)));
+    met.places.push_back(odom_from_sensor * (range * directions[i]));
     met.ranges.push_back(range);
     met.beams.push_back(static_cast<int>(i));
   }

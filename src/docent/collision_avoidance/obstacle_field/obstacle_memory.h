@@ -10,6 +10,7 @@
 #include "docent/collision_avoidance/obstacle_field/moving_objects.h"
 #include "docent/collision_avoidance/obstacle_field/range_flow.h"
 #include "docent/collision_avoidance/obstacle_field/straight_pieces.h"
+#include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 #include "docent/geometry/point_transform.h"
 #include "docent/geometry/polygon.h"
 
@@ -144,6 +145,7 @@ class ObstacleMemory {
  private:
   struct Sensor {
     SensorSweep sweep;
+    BeamDirections directions;
     Pose2 odom_from_sensor;
     std::vector<ObstaclePoint> points;      ///< of the newest sweep
     std::vector<ObstaclePoint> remembered;  ///< of earlier ones

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "docent/geometry/pose2.h"
 
@@ -19,6 +21,26 @@ struct PieceParams {
                                        const PieceParams& params = {}) {
   return params.least_spacing + params.per_beam * bearing_step * std::min(range, other);
 }
+
+/// Where the beams of a scanner look, sensor frame: computed once, as long as its sweeps keep their form.
+class BeamDirections {
+ public:
+  /// [beams] Unit vectors. O(1) for a form that is known, else O(beams).
+  [[nodiscard]] const std::vector<Point2>& of(double first_bearing, double bearing_step, std::size_t beams) {
+    if (first_bearing == first_bearing_ && bearing_step == bearing_step_ && beams == units_.size()) return units_;
+    first_bearing_ = first_bearing;
+    bearing_step_ = bearing_step;
+    units_.resize(beams);
+    for (std::size_t i = 0; i < beams; ++i)
+      units_[i] = unit(Angle::radians(first_bearing + static_cast<double>(i) * bearing_step));
+    return units_;
+  }
+
+ private:
+  double first_bearing_ = 0.0;  ///< [rad]
+  double bearing_step_ = 0.0;   ///< [rad]
+  std::vector<Point2> units_;
+};
 
 /// [rad] more than rough_bearing is off.
 inline constexpr double kRoughBearing = 2e-5;

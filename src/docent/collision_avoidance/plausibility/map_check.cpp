@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace docent::collision_avoidance {
 
 namespace {
 
-/// What is not surely a wall and known is passed through.
 OccupancyGrid passable(OccupancyGrid map) {
   for (std::int8_t& cell : map.cells)
     if (cell != OccupancyGrid::kUnknown && cell < 65) cell = OccupancyGrid::kFree;
@@ -17,10 +17,13 @@ OccupancyGrid passable(OccupancyGrid map) {
 
 }  // namespace
 
-MapCheck::MapCheck(const std::shared_ptr<const OccupancyGrid>& map, const MapCheckParams& params) : params_{params} {
-  if (!map) return;
-  map_ = std::make_shared<const sensor_models::RayCaster>(passable(*map));
-  half_cell_ = 0.5 * map->frame.resolution;
+std::shared_ptr<const sensor_models::RayCaster> known_walls(const std::shared_ptr<const OccupancyGrid>& map) {
+  return map ? std::make_shared<const sensor_models::RayCaster>(passable(*map)) : nullptr;
+}
+
+MapCheck::MapCheck(std::shared_ptr<const sensor_models::RayCaster> walls, const MapCheckParams& params)
+    : params_{params}, walls_{std::move(walls)} {
+  if (walls_) half_cell_ = 0.5 * walls_->frame().resolution;
 }
 
 void MapCheck::believe(Time stamp, const Pose2& map_from_odom, double mass) {
@@ -40,7 +43,7 @@ void MapCheck::expect_at(const SweepView& view, Point2 in_map, std::span<const P
                          std::vector<float>& expected) const {
   expected.assign(view.ranges.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < expected.size(); i += every) {
-    const auto range = map_->cast(in_map, rays[i], view.max_range, 0.0);
+    const auto range = walls_->cast(in_map, rays[i], view.max_range, 0.0);
     if (range) expected[i] = *range < view.max_range ? static_cast<float>(*range + half_cell_) : kNoAnswer;
   }
 }
@@ -71,7 +74,7 @@ bool MapCheck::is_expected_from(const SweepView& view, const Pose2& map_from_sen
 }
 
 std::optional<MapCheck::Finding> MapCheck::compare(const SweepView& view) {
-  if (!map_ || !map_from_odom_ || view.stamp - believed_ > seconds(params_.longest)) return Finding{};
+  if (!walls_ || !map_from_odom_ || view.stamp - believed_ > seconds(params_.longest)) return Finding{};
   if (view.stamp - compared_ < seconds(params_.between)) return std::nullopt;
   compared_ = view.stamp;
   const Pose2 map_from_sensor = *map_from_odom_ * view.odom_from_sensor;

@@ -30,14 +30,19 @@ struct MapCheckParams {
   double stands_turn = 0.005;  ///< [rad] likewise
 };
 
+/// What a map surely knows to be a wall, for the checks of all scanners; what is neither free nor a wall is passed
+/// through. @param map  null: null. O(cells).
+[[nodiscard]] std::shared_ptr<const sensor_models::RayCaster> known_walls(
+    const std::shared_ptr<const OccupancyGrid>& map);
+
 /// What the map says of a scanner's sweep where the robot believes to stand. The place is not taken for granted: ranges
 /// that are wrong by a law are told from a wrong place by trying places near by.
 class MapCheck {
  public:
-  /// @param map  null: there is none
-  explicit MapCheck(const std::shared_ptr<const OccupancyGrid>& map = nullptr, const MapCheckParams& params = {});
+  /// @param walls  `known_walls` of the map; null: there is none
+  explicit MapCheck(std::shared_ptr<const sensor_models::RayCaster> walls = nullptr, const MapCheckParams& params = {});
 
-  [[nodiscard]] bool has_map() const { return map_ != nullptr; }
+  [[nodiscard]] bool has_map() const { return walls_ != nullptr; }
   /// Where the robot believes to be. @param mass  of the belief there, 0..1
   void believe(Time stamp, const Pose2& map_from_odom, double mass);
 
@@ -65,7 +70,7 @@ class MapCheck {
   [[nodiscard]] bool is_wrong_place(const SweepView& view, const Pose2& map_from_sensor, const RangeLaw& law) const;
 
   MapCheckParams params_;
-  std::shared_ptr<const sensor_models::RayCaster> map_;
+  std::shared_ptr<const sensor_models::RayCaster> walls_;
   double half_cell_ = 0.0;  ///< [m] from a wall's outline to where the map has it
   std::optional<Pose2> map_from_odom_;
   Time believed_{};

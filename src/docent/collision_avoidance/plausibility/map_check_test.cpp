@@ -30,7 +30,7 @@ class MapCheckTest : public ::testing::Test {
   }
   /// @param believed  where it believes to be, `at` in truth
   MapCheck::Finding look(const Pose2& at, const Pose2& believed, double scale, double offset, double mass = 0.9) {
-    MapCheck check{map};
+    MapCheck check{known_walls(map)};
     MapCheck::Finding found;
     for (int i = 0; i < 4; ++i) {
       SensorSweep sweep = room.sweep(1.0 + 0.3 * i, at);
@@ -65,7 +65,7 @@ TEST_F(MapCheckTest, RaysPassWhatMayBeFreeAndEndWhereTheMapDoesNotSay) {
       grid.cells[grid.frame.index(grid.frame.cell_at({x, y}))] = OccupancyGrid::kUnknown;
   MapCheckParams params;
   params.every = 1;
-  MapCheck check{std::make_shared<const OccupancyGrid>(grid), params};
+  MapCheck check{known_walls(std::make_shared<const OccupancyGrid>(grid)), params};
   const SensorSweep sweep = room.sweep(1.0, at);
   const SweepView view = view_of(sweep, at);
   check.believe(sweep.stamp, {}, 0.9);

@@ -83,9 +83,25 @@ MotionCheck::Finding MotionCheck::compare(const SweepView& view, bool may_be_lat
   return agrees ? Finding::in_order : Finding::nothing;
 }
 
-MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late, bool do_turns_prove) {
+void MotionCheck::lengthen_trail(const SweepView& view) {
   trail_.push_back({view.stamp, view.odom_from_sensor});
   while (view.stamp - trail_.front().stamp > seconds(kTrail)) trail_.pop_front();
+}
+
+void MotionCheck::follow(const SweepView& view) {
+  lengthen_trail(view);
+  last_ = Finding::in_order;
+  row_ = 1;
+  unproven_ = 0.0;
+  const Pose2 moved = from_ ? inverse(from_->odom_from_sensor) * view.odom_from_sensor : Pose2{};
+  const bool is_old = !from_ || view.stamp - from_->stamp > seconds(params_.longest);
+  if (is_old || norm(moved.position()) > params_.farthest ||
+      std::abs(moved.theta.radians()) > 2.0 * params_.proves_turn)
+    from_ = view;
+}
+
+MotionCheck::Finding MotionCheck::add(const SweepView& view, bool may_be_late, bool do_turns_prove) {
+  lengthen_trail(view);
   if (!from_) {
     from_ = view;
     return Finding::nothing;

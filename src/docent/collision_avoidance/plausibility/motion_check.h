@@ -46,6 +46,8 @@ class MotionCheck {
   /// @param may_be_late  the sweeps are in order only where late ones would look otherwise
   /// @param do_turns_prove  of factors, which no turn on the spot shows, something else would tell
   Finding add(const SweepView& view, bool may_be_late = false, bool do_turns_prove = true);
+  /// One sweep that something else has borne out: it is followed, and not compared. O(1).
+  void follow(const SweepView& view);
   [[nodiscard]] double scale() const { return scale_; }  ///< of the last `too_long`
   [[nodiscard]] double lag() const { return lag_; }      ///< [s] of the last `late`
   /// Nothing that was seen of before counts: the robot was carried off, or the scanner was seen to lie.
@@ -58,6 +60,7 @@ class MotionCheck {
   }
 
  private:
+  void lengthen_trail(const SweepView& view);
   [[nodiscard]] Agreement share_of(const SweepView& view, const Pose2& now_from_then);
   [[nodiscard]] Finding compare(const SweepView& view, bool may_be_late);
   [[nodiscard]] Pose2 now_from_then_if_late(const SweepView& view, double lag) const;

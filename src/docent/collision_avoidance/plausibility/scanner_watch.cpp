@@ -20,12 +20,12 @@ BeamRun beams_of(const BeamRun& samples, const SweepView& view, const SensorSwee
 
 }  // namespace
 
-ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map,
-                           const ScannerWatchParams& params)
+ScannerWatch::ScannerWatch(std::string name, const BaseLimits& limits,
+                           std::shared_ptr<const sensor_models::RayCaster> walls, const ScannerWatchParams& params)
     : name_{std::move(name)},
       limits_{limits},
       params_{params},
-      map_{map, params.map},
+      map_{std::move(walls), params.map},
       motion_{params.motion},
       repeats_{params.repeats},
       old_{params.old},
@@ -249,6 +249,7 @@ void ScannerWatch::judge_age(const SweepView& view, const SensorSweep& sweep, co
 }
 
 void ScannerWatch::judge_motion(const SweepView& view) {
+  if (!lie_ && is_proven_ && does_map_fit(view.stamp)) return motion_.follow(view);
   switch (motion_.add(view, lie_ && lie_->is_late, !is_alone())) {
     case MotionCheck::Finding::too_long: {
       RangeLaw law;

@@ -84,8 +84,8 @@ struct ScannerWatchParams {
 /// which nothing takes for free floor.
 class ScannerWatch {
  public:
-  /// @param name  for a person: "front laser" @param map  null: there is none
-  ScannerWatch(std::string name, const BaseLimits& limits, const std::shared_ptr<const OccupancyGrid>& map,
+  /// @param name  for a person: "front laser" @param walls  `known_walls` of the map; null: there is none
+  ScannerWatch(std::string name, const BaseLimits& limits, std::shared_ptr<const sensor_models::RayCaster> walls,
                const ScannerWatchParams& params = {});
 
   /// What a scanner says of the last moments to the others: who is carried off is so with all of them.

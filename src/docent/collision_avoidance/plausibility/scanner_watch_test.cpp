@@ -112,7 +112,7 @@ TEST_F(Watched, SilenceIsNoWonderEitherWhereTheMapKnowsNothingYet) {
   room = {};
   room.max_range = 4.0;
   room.box(-3, -30, 40, 30);
-  watch = ScannerWatch{"front laser", limits, std::make_shared<const OccupancyGrid>()};  // it explores
+  watch = ScannerWatch{"front laser", limits, known_walls(std::make_shared<const OccupancyGrid>())};  // it explores
   const auto believe = [this] { watch.believe(time_from_seconds(time), {}, 1.0); };
   at = {0.0, 0.0, Angle::degrees(180)};
   believe();
@@ -206,7 +206,7 @@ TEST_F(Watched, OldSweepsFromTheStartShowInTheFirstTurn) {
 }
 
 TEST_F(Watched, WithoutARingATurnOfALostRobotProvesNothingAndItIsSlow) {
-  watch = ScannerWatch{"front laser", limits, std::make_shared<OccupancyGrid>()};
+  watch = ScannerWatch{"front laser", limits, known_walls(std::make_shared<OccupancyGrid>())};
   drive(0.5, {}, 0.0);
   turns = 0.06;
   EXPECT_EQ(drive(2.0, {}, 0.0), "");

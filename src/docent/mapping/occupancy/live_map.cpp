@@ -42,13 +42,16 @@ std::vector<bool> near_what_is_mapped(const OccupancyGrid& map, const GridFrame&
 
 std::vector<bool> and_near_hazards(std::vector<bool> near, const GridFrame& grid, std::span<const Polygon> hazards,
                                    double margin) {
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
-      const Point2 centre = grid.centre({column, row});
-      if (std::any_of(hazards.begin(), hazards.end(),
-                      [&](const Polygon& hazard) { return distance(hazard, centre) <= margin; }))
-        near[grid.index({column, row})] = true;
-    }
+  for (const Polygon& hazard : hazards) {
+    const auto [left, right] =
+        std::minmax_element(hazard.begin(), hazard.end(), [](Point2 a, Point2 b) { return a.x < b.x; });
+    const auto [low, high] =
+        std::minmax_element(hazard.begin(), hazard.end(), [](Point2 a, Point2 b) { return a.y < b.y; });
+    const CellIndex first = grid.cell_at({left->x - margin, low->y - margin});
+    const CellIndex last = grid.cell_at({right->x + margin, high->y + margin});
+    for (int row = std::max(0, first.row); row <= std::min(grid.rows - 1, last.row); ++row)
+      for (int column = std::max(0, first.column); column <= std::min(grid.columns - 1, last.column); ++column)
+        if (distance(hazard, grid.centre({column, row})) <= margin) near[grid.index({column, row})] = true;
   }
   return near;
 }

@@ -178,11 +178,11 @@ class MissionModule final : public Module {
   std::unique_ptr<task_control::Mission> mission_in(const ModuleContext& context, const MissionModuleParams& params,
                                                     std::unique_ptr<task_control::Planner> planner,
                                                     task_control::MissionMemory memory) {
-    const double radius = context.config.body().radius;
+    const auto ways = task_control::ways_in(context.museum, context.config.body().radius);
     const auto rooms = [this]() -> const task_control::Rooms& { return guide_.rooms(); };
-    return std::make_unique<task_control::Mission>(
-        params, task_control::programme_on_map(context.museum, radius, rooms),
-        task_control::travel_in(context.museum, radius), std::move(memory), std::move(planner), bus_.now());
+    return std::make_unique<task_control::Mission>(params, task_control::programme_on_map(context.museum, ways, rooms),
+                                                   task_control::travel_by(ways), std::move(memory), std::move(planner),
+                                                   bus_.now());
   }
 
   void subscribe() {
@@ -252,7 +252,7 @@ Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& c
                                                           const MissionModuleParams& params) {
   if (params.planner == "plans") return std::make_unique<task_control::PlanController>();
   const auto programme = task_control::programme_of(context.museum);
-  const auto travel = task_control::travel_in(context.museum, context.config.body().radius);
+  const auto travel = task_control::travel_by(task_control::ways_in(context.museum, context.config.body().radius));
   const auto own = task_control::golog_file(context.museum.folder);
   auto program = task_control::GologProgram::load(params.golog.program, own, programme, travel);
   if (program) return std::make_unique<task_control::GologPlanner>(params.golog, std::move(*program));

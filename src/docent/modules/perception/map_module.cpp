@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "docent/collision_avoidance/body/outline_distance.h"
+#include "docent/collision_avoidance/obstacle_field/sweep_geometry.h"
 #include "docent/collision_avoidance/watches/tactile_watch.h"
 #include "docent/geometry/point_transform.h"
 #include "docent/mapping/occupancy/live_map.h"
@@ -71,6 +72,7 @@ class MapModule final : public Module {
  private:
   struct Sight {
     sensor_msgs::LaserScan scan;
+    collision_avoidance::BeamDirections directions;
     Time received{};
     Time stamp{};                   ///< local time
     Pose2 map_from_laser;           ///< when it was taken
@@ -95,13 +97,13 @@ class MapModule final : public Module {
     if (!map_from_base) return false;
     sight.map_from_laser = *map_from_base * base_from_laser_[laser];
     sight.endpoints.clear();
+    const auto& directions = sight.directions.of(static_cast<double>(scan.angle_min),
+                                                 static_cast<double>(scan.angle_increment), scan.ranges.size());
     const PointTransform map_from_laser{sight.map_from_laser};
     for (std::size_t k = 0; k < scan.ranges.size(); ++k) {
       const float range = scan.ranges[k];
       if (!std::isfinite(range) || range < scan.range_min) continue;
-      const Angle bearing = Angle::radians(static_cast<double>(scan.angle_min) +
-                                           static_cast<double>(k) * static_cast<double>(scan.angle_increment));
-      sight.endpoints.push_back(map_from_laser * (static_cast<double>(range) * unit(bearing)));
+      sight.endpoints.push_back(map_from_laser * (static_cast<double>(range) * directions[k]));
     }
     return sight.is_placed = true;
   }

@@ -1,6 +1,5 @@
 #include "docent/task_control/mission_service/museum_programme.h"
 
-#include <memory>
 #include <utility>
 
 #include "docent/interaction/speech/sentences.h"
@@ -19,12 +18,6 @@ SpokenLength length_of(const museum::Exhibit& exhibit, const std::string& langua
     return interaction::spoken_text(museum::translated(text, language));
   };
   return {seconds_of(spoken(exhibit.title) + " " + spoken(exhibit.short_text)), seconds_of(spoken(exhibit.long_text))};
-}
-
-planning::RoutePlanner planner_in(const museum::Museum& museum, double robot_radius) {
-  planning::RouteParams params;
-  params.robot_radius = robot_radius;
-  return {museum.map, museum.hazard_polygons(), museum.area, params};
 }
 
 }  // namespace
@@ -50,18 +43,24 @@ Programme programme_of(const museum::Museum& museum) {
   return programme;
 }
 
-Programme programme_on_map(const museum::Museum& museum, double robot_radius, std::function<const Rooms&()> rooms) {
+std::shared_ptr<const planning::RoutePlanner> ways_in(const museum::Museum& museum, double robot_radius) {
+  if (museum.map.cells.empty()) return nullptr;
+  planning::RouteParams params;
+  params.robot_radius = robot_radius;
+  return std::make_shared<planning::RoutePlanner>(museum.map, museum.hazard_polygons(), museum.area, params);
+}
+
+Programme programme_on_map(const museum::Museum& museum, std::shared_ptr<const planning::RoutePlanner> ways,
+                           std::function<const Rooms&()> rooms) {
   Programme programme = programme_of(museum);
-  if (museum.map.cells.empty()) return programme;
-  programme.has_room = [planner = std::make_shared<planning::RoutePlanner>(planner_in(museum, robot_radius))](
-                           Point2 place) { return !planner->is_closed(place); };
+  if (!ways) return programme;
+  programme.has_room = [ways = std::move(ways)](Point2 place) { return !ways->is_closed(place); };
   programme.rooms = std::move(rooms);
   return programme;
 }
 
-TravelDistance travel_in(const museum::Museum& museum, double robot_radius) {
-  if (museum.map.cells.empty()) return straight_distance();
-  return travel_on_map(planner_in(museum, robot_radius));
+TravelDistance travel_by(const std::shared_ptr<const planning::RoutePlanner>& ways) {
+  return ways ? travel_on_map(*ways) : straight_distance();
 }
 
 }  // namespace docent::task_control

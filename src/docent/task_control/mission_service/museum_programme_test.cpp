@@ -78,14 +78,15 @@ TEST(MuseumProgramme, AMuseumWithoutLanguagesSpeaksTheProgrammesOwn) {
 
 TEST(MuseumProgramme, WithAMapItKnowsWhereThereIsRoom) {
   const Rooms rooms{{{"clocks", {1.0, 1.0}}}};
-  const Programme programme = programme_on_map(hall_with_map(), 0.3, [&]() -> const Rooms& { return rooms; });
+  const Programme programme =
+      programme_on_map(hall_with_map(), ways_in(hall_with_map(), 0.3), [&]() -> const Rooms& { return rooms; });
   ASSERT_TRUE(programme.has_room);
   EXPECT_TRUE(programme.has_room({2.0, 2.0}));
   EXPECT_FALSE(programme.has_room({5.0, 4.0})) << "in the wall";
   EXPECT_FALSE(programme.has_room({0.2, 2.0})) << "a robot is wider";
   ASSERT_TRUE(programme.rooms);
   EXPECT_EQ(programme.rooms().rooms.front().id, "clocks");
-  const Programme without = programme_on_map(hall(), 0.3, [&]() -> const Rooms& { return rooms; });
+  const Programme without = programme_on_map(hall(), ways_in(hall(), 0.3), [&]() -> const Rooms& { return rooms; });
   EXPECT_FALSE(without.has_room);
   EXPECT_FALSE(without.rooms);
 }
@@ -93,8 +94,8 @@ TEST(MuseumProgramme, WithAMapItKnowsWhereThereIsRoom) {
 TEST(MuseumProgramme, TravelGoesRoundWalls) {
   const Point2 from{2.0, 4.0};
   const Point2 to{8.0, 4.0};
-  EXPECT_DOUBLE_EQ(travel_in(hall(), 0.3)(from, to), 6.0) << "as the crow flies";
-  EXPECT_GT(travel_in(hall_with_map(), 0.3)(from, to), 8.0) << "through the door";
+  EXPECT_DOUBLE_EQ(travel_by(ways_in(hall(), 0.3))(from, to), 6.0) << "as the crow flies";
+  EXPECT_GT(travel_by(ways_in(hall_with_map(), 0.3))(from, to), 8.0) << "through the door";
 }
 
 }  // namespace
