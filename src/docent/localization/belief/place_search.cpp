@@ -86,20 +86,26 @@ PlaceSearch::PlaceSearch(const sensor_models::RayCaster& caster, const Occupancy
   }
 }
 
-double PlaceSearch::bound(const Node& node, const Readings& readings) const {
-  const auto& best = best_[static_cast<std::size_t>(node.level)];
-  const int side = 1 << node.level;
-  int sum = 0;
-  for (const CellIndex& arm : readings.arms[static_cast<std::size_t>(node.heading)]) {
-    int column = node.corner.column + arm.column;
-    int row = node.corner.row + arm.row;
-    if (column <= -side || row <= -side || column >= frame_.columns || row >= frame_.rows) continue;
-    column = std::max(column, 0);  // what lies partly left of the map: a little more than it reaches, a bound still
-    row = std::max(row, 0);
-    sum += best[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame_.columns) +
-                static_cast<std::size_t>(column)];
+template <std::size_t Count>
+std::array<double, Count> PlaceSearch::bounds(const std::array<CellIndex, Count>& corners, int level, int heading,
+                                              const Readings& readings) const {
+  const std::uint8_t* const best = best_[static_cast<std::size_t>(level)].data();
+  const int side = 1 << level;
+  std::array<int, Count> sums{};
+  for (const CellIndex& arm : readings.arms[static_cast<std::size_t>(heading)]) {
+    for (std::size_t i = 0; i < Count; ++i) {
+      const int column = corners[i].column + arm.column;
+      const int row = corners[i].row + arm.row;
+      if (column <= -side || row <= -side || column >= frame_.columns || row >= frame_.rows) continue;
+      // What lies partly left of the map: a little more than it reaches, a bound still.
+      const auto place = static_cast<std::ptrdiff_t>(std::max(row, 0)) * frame_.columns + std::max(column, 0);
+      sums[i] += best[place];
+    }
   }
-  return static_cast<double>(sum) / (255.0 * static_cast<double>(readings.count));
+  std::array<double, Count> result{};
+  for (std::size_t i = 0; i < Count; ++i)
+    result[i] = static_cast<double>(sums[i]) / (255.0 * static_cast<double>(readings.count));
+  return result;
 }
 
 std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep, const Wanted& wanted) const {
@@ -115,18 +121,13 @@ std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep
           {static_cast<int>(std::lround(arm.x / kCell)), static_cast<int>(std::lround(arm.y / kCell))});
     }
   }
-  std::size_t work = 0;
   std::priority_queue<Node> open;
-  const auto add = [&](Node node) {
-    work += readings.count;
-    node.bound = bound(node, readings);
-    open.push(node);
-  };
   constexpr int kTop = kLevels - 1;
   for (int row = 0; row < frame_.rows; row += 1 << kTop)
     for (int column = 0; column < frame_.columns; column += 1 << kTop)
-      for (int heading = 0; heading < kHeadings; ++heading) add({0.0, kTop, {column, row}, heading});
-  work = 0;
+      for (int heading = 0; heading < kHeadings; ++heading)
+        open.push({bounds<1>({{{column, row}}}, kTop, heading, readings).front(), kTop, {column, row}, heading});
+  std::size_t work = 0;
   std::vector<FoundPlace> found;
   while (!open.empty() && found.size() < wanted.most && work < wanted.work) {
     const Node node = open.top();
@@ -143,10 +144,16 @@ std::vector<FoundPlace> PlaceSearch::find(const sensor_models::RangeSweep& sweep
       continue;
     }
     const int half = 1 << (node.level - 1);
-    for (const CellIndex off : {CellIndex{0, 0}, CellIndex{half, 0}, CellIndex{0, half}, CellIndex{half, half}}) {
-      const CellIndex corner{node.corner.column + off.column, node.corner.row + off.row};
-      if (!frame_.holds(corner) || (half == 1 && !is_free_[frame_.index(corner)])) continue;
-      add({0.0, node.level - 1, corner, node.heading});
+    const auto [column, row] = node.corner;
+    const std::array<CellIndex, 4> corners{
+        {{column, row}, {column + half, row}, {column, row + half}, {column + half, row + half}}};
+    const auto values = bounds(corners, node.level - 1, node.heading, readings);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!frame_.holds(corners[i]) || (half == 1 && !is_free_[frame_.index(corners[i])])) continue;
+      work += readings.count;
+      // Nothing that fits so much worse than what was found is ever looked at.
+      if (!found.empty() && values[i] < found.front().fit - wanted.within) continue;
+      open.push({values[i], node.level - 1, corners[i], node.heading});
     }
   }
   return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,8 +42,11 @@ class PlaceSearch {
 
   struct Readings;
   struct Node;
-  /// Mean over the readings of the best that any position in the node could give.
-  [[nodiscard]] double bound(const Node& node, const Readings& readings) const;
+  /// Mean over the readings of the best that any position in nodes of a level could give; side by side, for their
+  /// readings end side by side.
+  template <std::size_t Count>
+  [[nodiscard]] std::array<double, Count> bounds(const std::array<CellIndex, Count>& corners, int level, int heading,
+                                                 const Readings& readings) const;
 
   GridFrame frame_;                              ///< of the cells
   std::vector<std::vector<std::uint8_t>> best_;  ///< [kLevels][rows * columns] the best of 2^level cells right and up
