@@ -64,6 +64,9 @@ struct Hours {
 /// Error: not "HH:MM-HH:MM".
 [[nodiscard]] Result<Hours> parse_hours(const std::string& text);
 
+/// Minute of the day, 0..1439. Error: not "HH:MM".
+[[nodiscard]] Result<int> parse_clock(const std::string& text);
+
 /// How the robot works in some hours.
 struct Mode {
   double max_speed = 0.7;          ///< [m/s]
@@ -94,6 +97,7 @@ struct Tour {
   Translations title;                 ///< its name
   std::vector<std::string> exhibits;  ///< fixed order; empty for a composed tour
   std::optional<double> minutes;      ///< composed on the fly to last so long
+  std::vector<int> daily{};           ///< [min] of the day, 0..1439, at which it begins by itself, rising
 };
 
 /// A room, or a part of a large one, as people call it. The robot knows rooms and doors from its map; this is what they

@@ -33,6 +33,20 @@ std::optional<NextMode> next_mode(const Museum& museum, int minute_of_day) {
   return next;
 }
 
+std::optional<DailyTour> next_daily_tour(const Museum& museum, int minute_of_day, int within) {
+  std::optional<DailyTour> next;
+  int soonest = within + 1;
+  for (const Tour& tour : museum.tours) {
+    for (const int minute : tour.daily) {
+      const int until = (minute - minute_of_day + kDay) % kDay;
+      if (until >= soonest || mode_at(museum, minute) != "open") continue;
+      soonest = until;
+      next = DailyTour{tour.id, minute};
+    }
+  }
+  return next;
+}
+
 std::string mode_meant(const std::string& word) {
   std::vector<std::string> names{kModes.begin(), kModes.end()};
   names.emplace_back("hours");

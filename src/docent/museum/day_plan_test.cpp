@@ -40,6 +40,17 @@ TEST(DayPlan, NothingComesWhereTheHoursSayTheSameAllDay) {
   EXPECT_EQ(next_mode(museum, 600), std::nullopt);
 }
 
+TEST(DayPlan, SaysWhichDailyTourComesNext) {
+  Museum museum = museum_with_evening();
+  museum.tours = {{"late", {}, {}, 6.0, {16 * 60, 19 * 60}}, {"early", {}, {}, 6.0, {9 * 60 + 5, 16 * 60 + 10}}};
+  EXPECT_EQ(next_daily_tour(museum, 9 * 60, 10), (DailyTour{"early", 9 * 60 + 5}));
+  EXPECT_EQ(next_daily_tour(museum, 9 * 60, 4), std::nullopt);
+  EXPECT_EQ(next_daily_tour(museum, 15 * 60 + 59, 60), (DailyTour{"late", 16 * 60}));
+  EXPECT_EQ(next_daily_tour(museum, 16 * 60, 0), (DailyTour{"late", 16 * 60}));
+  EXPECT_EQ(next_daily_tour(museum, 18 * 60 + 50, 30), std::nullopt) << "the Web's hours";
+  EXPECT_EQ(next_daily_tour(museum, 23 * 60, 11 * 60), (DailyTour{"early", 9 * 60 + 5})) << "past midnight";
+}
+
 TEST(DayPlan, KnowsWhichModeWasMeant) {
   EXPECT_EQ(mode_meant("opn"), "; did you mean 'open'?");
   EXPECT_EQ(mode_meant("hour"), "; did you mean 'hours'?");

@@ -20,23 +20,36 @@ bool Hours::holds(int minute_of_day) const {
   return minute_of_day >= from_minute || minute_of_day < to_minute;
 }
 
+namespace {
+
+/// Two digits; 1000: there are none.
+int two_digits(const std::string& text, std::size_t at) {
+  const auto is_digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(text[i])) != 0; };
+  return is_digit(at) && is_digit(at + 1) ? (text[at] - '0') * 10 + (text[at + 1] - '0') : 1000;
+}
+
+}  // namespace
+
 Result<Hours> parse_hours(const std::string& text) {
   const auto bad = [&] { return fail("hours '" + text + "': expected HH:MM-HH:MM"); };
   if (text.size() != 11 || text[2] != ':' || text[5] != '-' || text[8] != ':') return bad();
-  const auto number = [&](std::size_t at) {
-    const bool digits = std::isdigit(static_cast<unsigned char>(text[at])) != 0 &&
-                        std::isdigit(static_cast<unsigned char>(text[at + 1])) != 0;
-    return digits ? (text[at] - '0') * 10 + (text[at + 1] - '0') : 1000;
-  };
-  const int from_hour = number(0);
-  const int from_minute = number(3);
-  const int to_hour = number(6);
-  const int to_minute = number(9);
+  const int from_hour = two_digits(text, 0);
+  const int from_minute = two_digits(text, 3);
+  const int to_hour = two_digits(text, 6);
+  const int to_minute = two_digits(text, 9);
   if (from_hour > 23 || from_minute > 59 || to_hour > 24 || to_minute > 59) return bad();
   const Hours hours{from_hour * 60 + from_minute, to_hour * 60 + to_minute};
   if (hours.to_minute > 24 * 60 || hours.to_minute == 0) return bad();
   if (hours.from_minute == hours.to_minute) return fail("hours '" + text + "': begin and end are the same");
   return hours;
+}
+
+Result<int> parse_clock(const std::string& text) {
+  const bool has_form = text.size() == 5 && text[2] == ':';
+  const int hour = has_form ? two_digits(text, 0) : 1000;
+  const int minute = has_form ? two_digits(text, 3) : 1000;
+  if (hour > 23 || minute > 59) return fail("time '" + text + "': expected HH:MM");
+  return hour * 60 + minute;
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "docent/base/suggestion.h"
+#include "docent/museum/day_plan.h"
 #include "docent/museum/languages.h"
 #include "docent/museum/museum_fields.h"
 #include "docent/museum/scene_camera_yaml.h"
@@ -331,6 +332,19 @@ class MuseumYamlReader : MuseumFields {
     source_.rooms.push_back(entry);
   }
 
+  std::vector<int> times_of_day(const YAML::Node& node, const std::vector<std::string>& texts, const std::string& who) {
+    std::vector<int> times;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const auto time = parse_clock(texts[i]);
+      if (!time) throw fault(node[i], who + ": " + time.error().message);
+      times.push_back(*time);
+    }
+    std::sort(times.begin(), times.end());
+    const auto twice = std::adjacent_find(times.begin(), times.end());
+    if (twice != times.end()) throw fault(node, who + ": " + clock_text(*twice) + " stands twice");
+    return times;
+  }
+
   void read_tour(const YAML::Node& entry, std::set<std::string>& seen) {
     YamlReader reader{file(), entry};
     Tour tour;
@@ -339,8 +353,16 @@ class MuseumYamlReader : MuseumFields {
     const YAML::Node title = reader.node("title");
     reader("exhibits", tour.exhibits);
     reader("minutes", tour.minutes);
+    std::vector<std::string> daily;
+    reader("daily", daily);
     reader.finish();
     tour.title = translations(required(entry, title, "title"), who + ", title");
+    tour.daily = times_of_day(reader.node("daily"), daily, who + ", daily");
+    for (const int minute : tour.daily) {
+      const std::string mode = mode_at(museum_, minute);
+      if (mode != "open")
+        report(reader.node("daily"), who + ": the museum's hours say " + mode + " at " + clock_text(minute));
+    }
     const YAML::Node exhibits = reader.node("exhibits");
     if (tour.exhibits.empty() == !tour.minutes) throw fault(entry, who + ": needs either exhibits or minutes");
     if (tour.minutes && !(*tour.minutes > 0.0 && *tour.minutes <= 240.0)) {

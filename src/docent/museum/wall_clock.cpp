@@ -11,10 +11,15 @@ namespace {
 constexpr Duration kSet = std::chrono::seconds{2};  // at once: what keeps a clock right turns it more gently
 constexpr Duration kTold = std::chrono::minutes{10};
 
-int local_minute(Duration wall) {
+std::tm local_time(Duration wall) {
   const auto seconds = static_cast<std::time_t>(std::chrono::floor<std::chrono::seconds>(wall).count());
   std::tm local{};
   localtime_r(&seconds, &local);
+  return local;
+}
+
+int local_minute(Duration wall) {
+  const std::tm local = local_time(wall);
   return local.tm_hour * 60 + local.tm_min;
 }
 
@@ -30,6 +35,13 @@ int WallClock::minute_of_day(Time now) const {
   if (!is_virtual_) return local_minute(clocks_.wall());
   const auto minutes = std::chrono::floor<std::chrono::minutes>(day_begins_ + Duration{now.nanoseconds});
   return static_cast<int>(minutes.count() % (std::int64_t{24} * 60));
+}
+
+std::int64_t WallClock::day(Time now) const {
+  constexpr std::int64_t kLongestYear = 366;  // [d]
+  if (is_virtual_) return std::chrono::floor<std::chrono::days>(day_begins_ + Duration{now.nanoseconds}).count();
+  const std::tm local = local_time(clocks_.wall());
+  return local.tm_year * kLongestYear + local.tm_yday;
 }
 
 void WallClock::look() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ class WallClock {
   /// @param now  of the bus, which counts in virtual time alone
   /// @returns 0..1439
   [[nodiscard]] int minute_of_day(Time now) const;
+  /// A number that another day does not have; two days on it are two days apart but for leap years.
+  [[nodiscard]] std::int64_t day(Time now) const;
   /// Looks whether it was set since the last look; a second or so apart.
   void look();
   /// "the clock was set back by 61 min 10 s at 09:26", for ten minutes after; empty: it was not.

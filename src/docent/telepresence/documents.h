@@ -77,9 +77,10 @@ struct Tour {
   Texts title;
   std::vector<std::string> exhibits;
   std::optional<double> minutes;
+  std::vector<std::string> daily{};  ///< "HH:MM" at which it begins by itself
   template <class Self, class V>
   static void visit(Self& d, V& v) {
-    v("id", d.id), v("title", d.title), v("exhibits", d.exhibits), v("minutes", d.minutes);
+    v("id", d.id), v("title", d.title), v("exhibits", d.exhibits), v("minutes", d.minutes), v("daily", d.daily);
   }
 };
 struct Hazard {

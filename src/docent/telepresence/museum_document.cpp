@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "docent/museum/day_plan.h"
 #include "docent/telepresence/document_json.h"
 #include "docent/telepresence/documents.h"
 
@@ -55,7 +56,10 @@ std::string encode_museum(const museum::Museum& museum, double robot_radius, doc
   document.map = {"/api/map.png", frame.columns, frame.rows, frame.resolution, {frame.origin.x, frame.origin.y}};
   for (const auto& hazard : museum.hazards) document.hazards.push_back(document_of(hazard));
   for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(document_of(exhibit));
-  for (const auto& tour : museum.tours) document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes});
+  for (const auto& tour : museum.tours) {
+    document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes, {}});
+    for (const int minute : tour.daily) document.tours.back().daily.push_back(museum::clock_text(minute));
+  }
   document.rooms = std::move(rooms.rooms);
   document.doors = std::move(rooms.doors);
   return json_text(document);

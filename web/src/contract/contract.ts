@@ -35,6 +35,7 @@ export interface Tour {
   title: Record<string, string>;
   exhibits: string[];
   minutes: number | null;
+  daily: string[];
 }
 export interface Room {
   id: string;
@@ -1608,6 +1609,9 @@ export const documents = {
   },
   "Tour": {
     "fields": {
+      "daily": {
+        "list": "string"
+      },
       "exhibits": {
         "list": "string"
       },

@@ -55,6 +55,7 @@ export default {
   stops: 'Stationen',
   minutes: 'Min.',
   about: 'etwa',
+  daily: 'täglich um',
   toGo: 'noch',
   webOnly: 'nur für Gäste aus dem Netz',
   sending: 'wird gesendet…',

@@ -55,6 +55,7 @@ const words = {
   stops: 'stops',
   minutes: 'min',
   about: 'about',
+  daily: 'every day at',
   toGo: 'to go',
   webOnly: 'only for web visitors',
   sending: 'sending…',

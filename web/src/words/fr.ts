@@ -55,6 +55,7 @@ export default {
   stops: 'étapes',
   minutes: 'min',
   about: 'environ',
+  daily: 'tous les jours à',
   toGo: 'restants',
   webOnly: 'réservé aux visiteurs du Web',
   sending: 'envoi…',

@@ -52,7 +52,7 @@ std::vector<RepertoireLine> repertoire(const museum::Museum& museum) {
     std::vector<Sentence> with_title;
     for (int i = 0; i < kSentences; ++i) {
       const auto which = static_cast<Sentence>(i);
-      if (!is_spoken(which)) continue;
+      if (!is_spoken(which) || which == Sentence::tour_announced) continue;  // that one has a tour and its time
       if (has_title(dictionary_of(language).sentences.at(static_cast<std::size_t>(i)))) {
         with_title.push_back(which);
       } else {

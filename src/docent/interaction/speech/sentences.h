@@ -16,6 +16,7 @@ enum class Sentence {
   relocalizing,  ///< lost its place
   idle,          ///< at home, waits for visitors
   waiting,       ///< nothing to do just now, not at home
+  tour_soon,     ///< has nothing to do, and soon a daily tour begins: {title} has its name and its time
   driving,       ///< on its way to {title}
   blocked,       ///< on its way to {title}, people in the way
   to_point,      ///< on its way to a point on the map for which a visitor on the Web wished
@@ -31,6 +32,7 @@ enum class Sentence {
   charger_occupied,    ///< must charge, and something stands on its charger; its charge is {title} %
   charger_no_current,  ///< must charge, and its charger gives no current; likewise
   // spoken
+  tour_announced,  ///< some minutes before a daily tour begins; likewise
   announcement,    ///< when it sets out for {title}
   let_me_through,  ///< when people block the way: politely (happy), pleading (sad), angrily
   offer_more,      ///< more, or next?
@@ -57,7 +59,7 @@ inline constexpr int kSentences = static_cast<int>(Sentence::attract_demand) + 1
 [[nodiscard]] std::optional<Sentence> find_sentence(std::string_view key);
 /// Its key in the dictionaries, and its name in the names of recordings.
 [[nodiscard]] const char* to_text(Sentence which);
-[[nodiscard]] constexpr bool is_spoken(Sentence which) { return which >= Sentence::announcement; }
+[[nodiscard]] constexpr bool is_spoken(Sentence which) { return which >= Sentence::tour_announced; }
 
 /// What the robot says to attract people so; nullopt: nothing.
 [[nodiscard]] std::optional<Sentence> sentence_of(SpeechAct act);

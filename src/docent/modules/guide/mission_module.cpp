@@ -5,12 +5,14 @@
 #include <memory>
 
 #include "docent/base/random.h"
+#include "docent/interaction/speech/sentences.h"
 #include "docent/messages/conversions.h"
 #include "docent/modules/guide/mingling.h"
 #include "docent/modules/guide/room_guide.h"
 #include "docent/modules/shared/battery.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/task_control/golog_planner/golog_planner.h"
+#include "docent/task_control/mission_service/daily_tours.h"
 #include "docent/task_control/mission_service/mission_service.h"
 #include "docent/task_control/mission_service/museum_programme.h"
 #include "docent/task_control/plan_controller/plan_controller.h"
@@ -155,6 +157,8 @@ class MissionModule final : public Module {
                 std::unique_ptr<task_control::Planner> planner, task_control::MissionStore store,
                 task_control::MissionMemory memory)
       : bus_{context.bus},
+        museum_{context.museum},
+        daily_tours_{context.museum},
         guide_{context.museum},
         mode_{context},
         mingling_{context, params.attraction},
@@ -163,7 +167,8 @@ class MissionModule final : public Module {
         board_{bus_.publisher(topics::kRequestBoard)},
         task_{bus_.publisher(topics::kTask)},
         state_{bus_.publisher(topics::kMissionState)},
-        event_{bus_.publisher(topics::kEvent)} {
+        event_{bus_.publisher(topics::kEvent)},
+        say_{bus_.publisher(topics::kSay)} {
     tell(service_.begin(bus_.now()));
     subscribe();
     take_goal_poses(params.goal_poses, Rng{context.seed}.stream("goal_pose"));
@@ -213,6 +218,7 @@ class MissionModule final : public Module {
       mode_.clock().look();
       service_.time_of_day(mode_.minute_of_day(bus_.now()) / 60);
       tell_mode();
+      look_at_daily_tours();
       tell(service_.tick(bus_.now()));
     });
   }
@@ -224,6 +230,22 @@ class MissionModule final : public Module {
           tell_mode();
           tell(service_.request(request_of(goal, bus_.now(), rng), bus_.now()));
         });
+  }
+
+  void look_at_daily_tours() {
+    const Time now = bus_.now();
+    const bool is_open = mode_.takes_requests() && parse<OperatingMode>(mode_.name(now)) == OperatingMode::open;
+    auto news =
+        daily_tours_.look(mode_.minute_of_day(now), mode_.clock().day(now), is_open, service_.may_speak(now), now);
+    if (!news.language.empty()) {
+      const std::string tour = task_control::name_and_time(museum_, *news.soon, news.language);
+      const auto which = interaction::Sentence::tour_announced;
+      say_.publish({"daily-tour-" + std::to_string(now.nanoseconds),
+                    interaction::sentence(which, news.language, Mood::happy, 0, tour), news.language,
+                    to_text(Mood::happy)});
+    }
+    service_.expect_daily_tour(std::move(news.soon));
+    if (news.begins) tell(service_.request(std::move(*news.begins), now));
   }
 
   void tell_mode() { service_.limits(mode_.takes_requests(), parse<OperatingMode>(mode_.name(bus_.now()))); }
@@ -238,6 +260,8 @@ class MissionModule final : public Module {
   }
 
   transport::Bus& bus_;
+  const museum::Museum& museum_;
+  task_control::DailyTours daily_tours_;
   RoomGuide guide_;
   MuseumMode mode_;
   Mingling mingling_;
@@ -246,6 +270,7 @@ class MissionModule final : public Module {
   transport::Publisher<docent_msgs::Task> task_;
   transport::Publisher<docent_msgs::MissionState> state_;
   transport::Publisher<docent_msgs::Event> event_;
+  transport::Publisher<docent_msgs::Say> say_;
 };
 
 Result<std::unique_ptr<task_control::Planner>> planner_of(const ModuleContext& context,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -414,6 +415,26 @@ TEST(Tour, TheHoursSayWhoIsServedAndHowLongItStays) {
   while (rehearsal.client.state_of("web") == "active") rehearsal.run_for(0.5);
   EXPECT_GT(to_seconds(rehearsal.hub.now() - arrived), 35.0);
   EXPECT_LT(to_seconds(rehearsal.hub.now() - arrived), 55.0);
+}
+
+TEST(Tour, ADailyTourIsAnnouncedAndBeginsByItself) {
+  Rehearsal rehearsal{22, "daily"};
+  rehearsal.museum.tours[0].daily = {10 * 60 + 8};
+  rehearsal.run_for(60);
+  EXPECT_NE(rehearsal.mission.texts.at(0).find("10:08"), std::string::npos) << rehearsal.mission.texts.at(0);
+  EXPECT_NE(rehearsal.mission.texts.at(1).find("10:08"), std::string::npos) << rehearsal.mission.texts.at(1);
+  rehearsal.run_for(7 * 60 - 5);
+  std::vector<std::string> languages;
+  for (const auto& speech : rehearsal.speeches)
+    if (speech.text.find("10:08") != std::string::npos) languages.push_back(speech.language);
+  std::sort(languages.begin(), languages.end());
+  languages.erase(std::unique(languages.begin(), languages.end()), languages.end());
+  EXPECT_EQ(languages, (std::vector<std::string>{"de", "en"}));
+  EXPECT_TRUE(rehearsal.events_of("explained").empty());
+  rehearsal.run_for(240);
+  EXPECT_EQ(rehearsal.events_of("explained"), rehearsal.museum.tours[0].exhibits);
+  EXPECT_EQ(rehearsal.events_of("tour_completed").size(), 1U);
+  EXPECT_EQ(rehearsal.mission.texts.at(0).find("10:08"), std::string::npos);
 }
 
 }  // namespace

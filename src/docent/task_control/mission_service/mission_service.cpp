@@ -107,6 +107,11 @@ MissionTask MissionService::begin_task(const TaskOrder& order) {
   return {order, std::nullopt};
 }
 
+bool MissionService::may_speak(Time now) const {
+  const MissionPhase phase = mission_->summary(now).phase;
+  return phase == MissionPhase::idle || phase == MissionPhase::waiting || phase == MissionPhase::going_home;
+}
+
 MissionStatus MissionService::status(Time now) {
   const MissionSummary summary = mission_->summary(now);
   const museum::Exhibit* exhibit = museum_.find_exhibit(summary.exhibit_id);
@@ -123,7 +128,10 @@ MissionStatus MissionService::status(Time now) {
   status.requests_served = summary.counters.requests_served;
   status.agenda = summary.agenda;
   status.languages = mission_->scheduler().programme().languages;
-  for (const std::string& language : status.languages) status.texts.push_back(status_text(summary, title, language));
+  for (const std::string& language : status.languages) {
+    const std::string tour = daily_tour_ ? name_and_time(museum_, *daily_tour_, language) : std::string{};
+    status.texts.push_back(status_text(summary, title, tour, language));
+  }
   return status;
 }
 

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "docent/museum/day_plan.h"
 #include "docent/museum/museum.h"
 #include "docent/task_control/mission/mission.h"
 #include "docent/task_control/mission/mission_store.h"
@@ -93,6 +95,10 @@ class MissionService {
   }
   /// @param hour  of the day, 0..23
   void time_of_day(int hour) { mission_->time_of_day(hour); }
+  /// A daily tour that begins soon; nullopt: none does.
+  void expect_daily_tour(std::optional<museum::DailyTour> tour) { daily_tour_ = std::move(tour); }
+  /// It tells nobody anything now, and asks nobody.
+  [[nodiscard]] bool may_speak(Time now) const;
   /// Twice a second.
   [[nodiscard]] MissionNews tick(Time now);
 
@@ -110,7 +116,8 @@ class MissionService {
   const museum::Museum& museum_;
   Company& company_;
   RoomName name_of_room_;
-  ShownQuestion question_;  ///< of the present task
+  ShownQuestion question_;                       ///< of the present task
+  std::optional<museum::DailyTour> daily_tour_;  ///< that people shall read of
   bool is_localized_ = false;
   std::string store_fault_;
   // As they were told last; nullopt: never.

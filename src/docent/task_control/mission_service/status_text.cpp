@@ -31,9 +31,13 @@ interaction::Sentence sentence_of(const MissionSummary& summary) {
   return summary.phase == MissionPhase::idle ? Sentence::idle : Sentence::waiting;
 }
 
-std::string status_text(const MissionSummary& summary, const museum::Translations& title, const std::string& language) {
+std::string status_text(const MissionSummary& summary, const museum::Translations& title, const std::string& daily_tour,
+                        const std::string& language) {
   constexpr int kLeastMinutes = 5;
   const interaction::Sentence which = sentence_of(summary);
+  const bool has_nothing_to_do = which == interaction::Sentence::idle || which == interaction::Sentence::waiting;
+  if (has_nothing_to_do && !daily_tour.empty())
+    return interaction::sentence(interaction::Sentence::tour_soon, language, Mood::neutral, 0, daily_tour);
   const bool is_of_charger =
       which == interaction::Sentence::charger_occupied || which == interaction::Sentence::charger_no_current;
   const std::string about = is_of_charger ? std::to_string(summary.charge_percent)

@@ -14,7 +14,8 @@ namespace docent::task_control {
 [[nodiscard]] bool is_about_room(const MissionSummary& summary);
 /// One sentence for people, in that language.
 /// @param title  of the exhibit or room that it is about
+/// @param daily_tour  name and time of the tour that soon begins by itself, in that language; empty: none does
 [[nodiscard]] std::string status_text(const MissionSummary& summary, const museum::Translations& title,
-                                      const std::string& language);
+                                      const std::string& daily_tour, const std::string& language);
 
 }  // namespace docent::task_control

@@ -54,7 +54,7 @@ TEST(StatusText, WhatKeepsItFromChargingIsSaidWhereItMatters) {
   summary.needs_charge = true;
   summary.charge_percent = 14;
   EXPECT_EQ(sentence_of(summary), Sentence::charger_occupied);
-  EXPECT_NE(status_text(summary, {}, "en").find("14 percent"), std::string::npos);
+  EXPECT_NE(status_text(summary, {}, "", "en").find("14 percent"), std::string::npos);
   summary.charger_trouble = ReasonWord::charger_no_current;
   EXPECT_EQ(sentence_of(summary), Sentence::charger_no_current);
   summary.phase = MissionPhase::explaining;
@@ -74,15 +74,22 @@ TEST(StatusText, PointsAndRoomsAreNoExhibits) {
 
 TEST(StatusText, NamesTheTitleInItsLanguage) {
   const museum::Translations title{{"en", "Clocks"}, {"de", "Uhren"}};
-  EXPECT_NE(status_text(in(MissionPhase::driving), title, "en").find("Clocks"), std::string::npos);
-  EXPECT_NE(status_text(in(MissionPhase::driving), title, "de").find("Uhren"), std::string::npos);
+  EXPECT_NE(status_text(in(MissionPhase::driving), title, "", "en").find("Clocks"), std::string::npos);
+  EXPECT_NE(status_text(in(MissionPhase::driving), title, "", "de").find("Uhren"), std::string::npos);
 }
 
 TEST(StatusText, ChargingSaysForHowLongAndNeverLessThanFiveMinutes) {
   MissionSummary summary = in(MissionPhase::charging);
-  EXPECT_NE(status_text(summary, {}, "en").find(" 5 "), std::string::npos) << status_text(summary, {}, "en");
+  EXPECT_NE(status_text(summary, {}, "", "en").find(" 5 "), std::string::npos) << status_text(summary, {}, "", "en");
   summary.charging_min = 40;
-  EXPECT_NE(status_text(summary, {}, "en").find(" 40 "), std::string::npos);
+  EXPECT_NE(status_text(summary, {}, "", "en").find(" 40 "), std::string::npos);
+}
+
+TEST(StatusText, SaysWhichTourBeginsSoonWhereThereIsNothingElseToSay) {
+  const std::string tour = "The highlights, 14:00";
+  EXPECT_EQ(status_text(in(MissionPhase::idle), {}, tour, "en"),
+            "The next tour for everybody is the highlights, 14:00.");
+  EXPECT_EQ(status_text(in(MissionPhase::driving), {{"en", "Clocks"}}, tour, "en").find("14:00"), std::string::npos);
 }
 
 }  // namespace
