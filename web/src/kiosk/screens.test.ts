@@ -7,7 +7,7 @@ const exhibit = (id: string, long: string) => ({
   id, title: { en: `The ${id}`, de: `Das ${id}`, fr: `Le ${id}` }, pose: [0, 0, 0] as [number, number, number], look_at: [1, 0] as [number, number],
   viewpoints: [], short: { en: 'short' }, long: (long ? { en: long } : {}) as Record<string, string>, topics: [], web_only: false, picture: '', links: [],
 });
-const tour = (id: string) => ({ id, title: { en: `Tour ${id}` }, exhibits: ['clock', 'coin'], minutes: null });
+const tour = (id: string) => ({ id, title: { en: `Tour ${id}` }, exhibits: ['clock', 'coin'], minutes: null, daily: [] });
 const museum = (languages: string[], tours: string[]): Museum => ({
   name: { en: 'A hall' }, languages, area: [], home: [0, 0, 0], charger: null, robot_radius: 0.3,
   map: { url: '', columns: 1, rows: 1, resolution: 1, origin: [0, 0] }, hazards: [],
