@@ -1,5 +1,6 @@
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/doctor/doctor_command.h"
+#include "docent/apps/eyes/objects_command.h"
 #include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
 #include "docent/apps/localize/calibrate_command.h"
@@ -41,6 +42,8 @@ int main(int argc, char** argv) {
                   {"Look at recordings",
                    {localize_command::add_localize_command, localize_command::add_map_command,
                     localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole)}},
+                  {"Teach it things by sight",
+                   {objects_command::add_learn_objects_command, objects_command::add_name_objects_command}},
                   {"Tune", {config_command::add_config_command}},
                   {"Put it into a robot of your own",
                    {ros::add_ros_command, with_robot(up_command::add_run_command, whole)}}},
@@ -73,6 +76,8 @@ int main(int argc, char** argv) {
                     {"map", "map --log drive.mcap --out map"},
                     {"calibrate", "calibrate --log drive.mcap --robot robot.yaml"},
                     {"replay", "replay run.mcap --museum museums/bonn --modules localize"},
+                    {"learn-objects", "learn-objects pictures --out objects.json"},
+                    {"name-objects", "name-objects --book objects.json photo.jpg"},
                     {"config", "config avoid > robot.yaml"},
                     {"ros", "ros check --robot robot.yaml"},
                     {"ros check", "ros check --robot robot.yaml"},
