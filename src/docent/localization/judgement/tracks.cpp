@@ -57,8 +57,12 @@ bool Tracks::is_due(const Pose2& odom_from_robot, bool is_startled) const {
   if (views_.empty()) return true;
   const View& last = views_.back();
   if (is_startled && !last.is_startled) return true;
-  const Pose2 moved = inverse(last.odom_from_robot) * odom_from_robot;
-  return norm(moved.position()) >= params_.spacing || std::abs(moved.theta.degrees()) >= params_.turned;
+  return !is_one_view(last.odom_from_robot, odom_from_robot);
+}
+
+bool Tracks::is_one_view(const Pose2& odom_from_robot, const Pose2& other) const {
+  const Pose2 moved = inverse(odom_from_robot) * other;
+  return norm(moved.position()) < params_.spacing && std::abs(moved.theta.degrees()) < params_.turned;
 }
 
 std::vector<PartCost> Tracks::costs_at(const View& view, const Pose2& pose) const {
@@ -87,7 +91,11 @@ double Tracks::least_nats() const {
 }
 
 void Tracks::drop_first_view() {
-  // What is forgotten of a way is still held against it.
+  // What is forgotten of a way is still held against it, but for what another view of the same place goes on saying: a
+  // robot that turns on one spot for minutes would else be told ever more of it.
+  const bool is_seen_again = std::any_of(views_.begin() + 1, views_.end(), [&](const View& view) {
+    return is_one_view(views_.front().odom_from_robot, view.odom_from_robot);
+  });
   for (Track& track : tracks_) {
     if (track.since > 0) {
       --track.since;
@@ -97,9 +105,10 @@ void Tracks::drop_first_view() {
     track.sums.take_out(track.costs.front());
     track.costs.pop_front();
     track.poses.pop_front();
-    track.past += before - nats(track);
+    if (!is_seen_again) track.past += before - nats(track);
   }
   views_.pop_front();
+  if (is_seen_again) return;
   // Whoever has followed one way for long is not told by a place that explains the last metres alone.
   given_ = std::max(given_, std::min(params_.given, given_ + params_.given / params_.most_views));
 }

@@ -138,6 +138,8 @@ class Tracks {
   /// [nat] of the best way to explain the views before each, [views].
   [[nodiscard]] std::vector<double> best_before() const;
   void drop_first_view();
+  /// Of one place, and the same way.
+  [[nodiscard]] bool is_one_view(const Pose2& odom_from_robot, const Pose2& other) const;
   void prune();
 
   TracksParams params_;
