@@ -60,9 +60,8 @@ Glance glance(const sensor_models::RayCaster& caster, const sensor_models::Range
   }
   result.unmapped = unmapped_share(caster, sweep, map_from_robot);
   const int not_short = result.readings - shorter;
-  constexpr int kFewest = 10;  // fewer tell nothing
-  if (not_short >= kFewest) result.through = static_cast<double>(through) / not_short;
-  if (result.readings >= kFewest) result.shorter = static_cast<double>(shorter) / result.readings;
+  if (not_short >= Glance::kFewest) result.through = static_cast<double>(through) / not_short;
+  if (result.tells()) result.shorter = static_cast<double>(shorter) / result.readings;
   return result;
 }
 

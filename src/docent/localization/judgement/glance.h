@@ -16,6 +16,9 @@ struct Glance {
   /// People hide walls, they do not look like them; another place does both.
   double unmapped = 0.0;
   int readings = 0;  ///< where the map says what to expect
+
+  static constexpr int kFewest = 10;  ///< readings: shares of fewer tell nothing
+  [[nodiscard]] bool tells() const { return readings >= kFewest; }
 };
 
 /// O(beams), and at most some eighty rays. `max_range` [m].

@@ -24,9 +24,10 @@ Result<void> TracksParams::validate() const {
   if (!(first_short > 0.0)) return fail("tracks.first_short must be > 0");
   if (!(too_short >= 0.0 && too_short <= 1.0)) return fail("tracks.too_short must be 0..1");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
-  if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && startled_given >= 0.0 &&
-        most_heard >= 0.0))
-    return fail("tracks.hopeless must be > 0, given, carried_off, startled, startled_given and most_heard >= 0");
+  if (!(hopeless > 0.0 && given >= 0.0 && followed >= 0.0 && carried_off >= 0.0 && startled >= 0.0 &&
+        startled_given >= 0.0 && most_heard >= 0.0))
+    return fail(
+        "tracks.hopeless must be > 0, given, followed, carried_off, startled, startled_given and most_heard >= 0");
   if (!(search_way > 0.0 && search_way_kept > 0.0 && search_way_calm > 0.0))
     return fail("tracks.search_way, search_way_kept and search_way_calm must be > 0");
   if (!(usual_nats > 0.0 && doubt_nats > 0.0)) return fail("tracks.usual_nats and doubt_nats must be > 0");
@@ -110,7 +111,7 @@ void Tracks::drop_first_view() {
   views_.pop_front();
   if (is_seen_again) return;
   // Whoever has followed one way for long is not told by a place that explains the last metres alone.
-  given_ = std::max(given_, std::min(params_.given, given_ + params_.given / params_.most_views));
+  given_ = std::max(given_, std::min(params_.followed, given_ + params_.followed / params_.most_views));
 }
 
 void Tracks::add_view(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, bool is_startled,
