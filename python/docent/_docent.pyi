@@ -452,10 +452,12 @@ class StateSpaceParams:
 
 
 class VerdictParams:
+    here: float
+    no_longer_here: float
+    given_up: float
     enough_share: float
     enough_mass: float
     too_little_mass: float
-    most_doubt: float
     widest_spread: float
     confirmations: float
     travelled: float
@@ -492,6 +494,7 @@ class TracksParams:
     part_beams: float
     hopeless: float
     given: float
+    followed: float
     carried_off: float
     startled: float
     startled_given: float

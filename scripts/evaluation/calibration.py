@@ -98,7 +98,7 @@ def learn(bench, museums, count, method):
     """Prints the weights, and what those of one half of the runs are worth on the other half."""
     print("// " + ", ".join(NAMES))
     # A robot that takes "here" back when in doubt leaves few examples of being wrong and sure of it.
-    for name, said, settings in (("kWhenSure", 1.0, ["localize.verdict.most_doubt=1"]), ("kWhenNot", 0.0, [])):
+    for name, said, settings in (("kWhenSure", 1.0, ["localize.verdict.no_longer_here=1", "localize.verdict.given_up=1"]), ("kWhenNot", 0.0, [])):
         runs = [[row[:4] for row in run if row[4] == said] for run in rows_of(bench, museums, count, method, settings)]
         half = fit([row for run in runs[::2] for row in run])
         other = [(probability(half, values, best), lost) for run in runs[1::2] for values, lost, _, best in run]

@@ -12,12 +12,12 @@ import tempfile
 import time
 from pathlib import Path
 
-from evaluation import starts
+from evaluation import drawn_logs, starts
 from evaluation.tables import Verdict, print_table
 
 METHODS = ["grid", "particles"]
 PARTS = ["wean", "intel", "corrected", "starts"]
-ON_DEMAND = ["peer"]  # with --part only: it needs MRPT's programs
+ON_DEMAND = ["peer", "drawn"]  # with --part only: the first needs MRPT's programs
 BEGINNINGS = 24  # of each log, in the part "starts"
 SURFACES = "0"  # [m]: maps made here have their walls where the readings ended
 MEAN_BOUND = 0.10  # [m]
@@ -192,6 +192,8 @@ def protocol(program, root, options):
     if "starts" in parts:
         names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
         starts.starts(logs, methods, beginnings, options.first_seed, names, MOTION, SURFACES, verdict)
+    if "drawn" in parts:
+        drawn_logs.protocol(logs, methods, 1 if options.slice else options.seeds or 10, options.first_seed, verdict)
     if "peer" in parts:
         names = ["seattle"] if options.slice else [*starts.WEAN, "intel", *starts.CORRECTED]
         starts.peer(logs, methods, beginnings, options.first_seed, names, MOTION, SURFACES, verdict)

@@ -11,10 +11,12 @@ namespace docent::localization {
 
 /// When the robot says "here", and how likely it is lost.
 struct VerdictParams {
-  double enough_share = 0.93;       ///< of all that may be, see Tracks, to say "here", and
+  double here = 0.1;                ///< P(lost) below which it says "here"; above
+  double no_longer_here = 0.25;     ///< it takes that back, and
+  double given_up = 0.9;            ///< above, for eight glances in a row, it no longer keeps its place
+  double enough_share = 0.93;       ///< of all that may be, see Tracks, to find its place, and
   double enough_mass = 0.995;       ///< of the best mode
-  double too_little_mass = 0.6;     ///< to take it back, or
-  double most_doubt = 0.9;          ///< P(lost), for eight glances in a row
+  double too_little_mass = 0.6;     ///< to take "here" back
   double widest_spread = 0.35;      ///< [m] standard deviation of the best mode
   double confirmations = 6.0;       ///< full updates of one view in a row that kept to one mode
   double travelled = 1.0;           ///< [m] driven since, or
@@ -27,10 +29,12 @@ struct VerdictParams {
   double startled_hidden = 0.35;    ///< that is suddenly too short: nobody steps before so many beams at once
   template <class V>
   void visit(V& v) {
+    v("here", here);
+    v("no_longer_here", no_longer_here);
+    v("given_up", given_up);
     v("enough_share", enough_share);
     v("enough_mass", enough_mass);
     v("too_little_mass", too_little_mass);
-    v("most_doubt", most_doubt);
     v("widest_spread", widest_spread);
     v("confirmations", confirmations);
     v("travelled", travelled);
@@ -76,15 +80,16 @@ struct Evidence {
                                       const std::optional<Pose2>& predicted);
 
 /// Decides whether the robot may say where it is. It says "I do not know" until one mode has held nearly all the mass
-/// over several updates and some motion, and the readings bear it out; and takes it back when they stop doing so.
+/// over several updates and some motion, and the readings bear it out. From then on "here" is P(lost) below one bound,
+/// with hysteresis. Whoever asks for more or less certainty compares P(lost) with a bound of its own.
 class Verdict {
  public:
   explicit Verdict(const VerdictParams& params) : params_{params} {}  ///< "I do not know". @pre params are valid
 
   /// An update of the belief.
   void add(const Evidence& evidence);
-  /// A sweep between updates, or the one that led to the last, against the best pose. Eight that leave more than the
-  /// most doubt take "here" back.
+  /// A sweep between updates, or the one that led to the last, against the best pose. What one sweep alone says is
+  /// believed when eight in a row leave P(lost) above a bound: somebody who steps before the robot is no other place.
   void look(const Glance& glance);
   /// After a restart or a given start: the mode was known already, and needs one confirmation only.
   void assume_localized();
@@ -97,12 +102,14 @@ class Verdict {
   /// since it last did nothing speaks against that place: what it sees is evidence about its neighbourhood, not about
   /// others.
   [[nodiscard]] bool keeps_its_place() const { return keeps_its_place_; }
+  /// It found a place, however great the doubt, and the belief has kept to it since: what looks back sets out from it.
+  [[nodiscard]] bool has_found() const { return has_found_; }
   /// Probability that the best hypothesis is wrong: a logistic function of what its mass leaves, of how far it has been
   /// confirmed, of how wide it is and of how the readings contradict it. Its weights are learned, see
   /// scripts/evaluation/calibration.py. Besides, another place may be the right one, as far as the whole way leaves
   /// it possible: a building in which two places look the same need not have been among those that were learned from.
-  /// And a robot that sees nothing is never sure.
-  [[nodiscard]] double p_lost() const { return p_lost(localized_); }
+  /// And a robot that sees nothing is never sure. Before it has said "here" it is no less than the bound for that.
+  [[nodiscard]] double p_lost() const;
   /// Readings pass through walls of the map, so many that the place must be wrong, or for so long nothing of the map
   /// was seen that odometry tells nothing any more.
   [[nodiscard]] bool contradicted() const;
@@ -129,6 +136,8 @@ class Verdict {
  private:
   /// By the weights of a robot that has said "here", or of one that has not.
   [[nodiscard]] double p_lost(bool has_said) const;
+  /// The same without what the last sweep alone says.
+  [[nodiscard]] double lasting_doubt() const;
   /// 0..1: a robot whose readings nearly all end on people sees nothing, and knows only what odometry says. Updates
   /// tell it, or, where the robot stands and they weigh little, the glances.
   [[nodiscard]] double blindness(bool has_said) const;
@@ -139,13 +148,17 @@ class Verdict {
   VerdictParams params_;
   bool localized_ = false;
   bool keeps_its_place_ = false;
-  double mass_ = 0.0;    ///< of the best mode
-  double share_ = 1.0;   ///< of the best mode among the places that the whole way leaves possible
-  double spread_ = 0.0;  ///< [m] of the best mode
+  bool has_said_ = false;  ///< "here", of the place that it keeps
+  bool has_found_ = false;
+  bool is_told_ = false;  ///< somebody told a place, and it has not been borne out since
+  double mass_ = 0.0;     ///< of the best mode
+  double share_ = 1.0;    ///< of the best mode among the places that the whole way leaves possible
+  double spread_ = 0.0;   ///< [m] of the best mode
   Glance glance_;
   double shorter_ = 0.0;  ///< Glance::shorter, running mean
   double hidden_ = 0.0;
-  int doubtful_ = 0;       ///< sweeps in a row with more than the most doubt
+  int unsure_ = 0;         ///< sweeps in a row that leave too much doubt to say "here", and
+  int hopeless_ = 0;       ///< to keep the place
   double unmapped_ = 0.0;  ///< Glance::unmapped, running mean
   double confirmed_ = 0.0;
   double way_ = 0.0;

@@ -135,6 +135,7 @@ LogRun localize_log(const recording::LaserLog& log, localization::Localizer& loc
     pose = {.scan = i,
             .time = logged,
             .localized = verdict.localized(),
+            .has_found = verdict.has_found(),
             .p_lost = verdict.p_lost(),
             .doubt = verdict.doubt()};
     const auto best = localizer.map_from_robot(odom_from_tracked);
@@ -165,7 +166,7 @@ void look_back(const recording::LaserLog& log, bool reverse, const sensor_models
     const sensor_models::RangeSweep of_laser = sweep_of(scan, log.max_range);
     sweeps.push_back({has_two ? sensor_models::seen_from(of_laser, scan.base_from_laser) : of_laser,
                       scan.odom_from_base * tracked,
-                      pose.best_mode ? std::optional{*pose.best_mode * tracked} : std::nullopt, pose.localized});
+                      pose.best_mode ? std::optional{*pose.best_mode * tracked} : std::nullopt, pose.has_found});
   }
   const auto poses = localization::seen_in_hindsight(caster, sweeps, params);
   for (std::size_t n = 0; n < count; ++n)

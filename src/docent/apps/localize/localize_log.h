@@ -24,6 +24,7 @@ struct LoggedPose {
   std::optional<Pose2> best_mode{};  ///< map_from_base likewise, of the belief's best mode, whatever was said
   bool has_pose = false;             ///< there was a pose to tell
   bool localized = false;            ///< the robot said where it is, there and then
+  bool has_found = false;            ///< it had found a place, see localization::Verdict
   std::optional<Pose2>
       hindsight{};  ///< map_from_base, now that the whole way is over, see localization::HindsightParams
   double p_lost = 1.0;

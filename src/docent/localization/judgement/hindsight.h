@@ -17,7 +17,7 @@ struct PastSweep {
   sensor_models::RangeSweep sweep;
   Pose2 odom_from_robot;
   std::optional<Pose2> best;  ///< of the belief then
-  bool is_sure = false;       ///< the robot said so
+  bool is_sure = false;       ///< it had found that place, see Verdict::has_found
 };
 
 /// What looks back needs of a localizer.

@@ -24,9 +24,10 @@ Result<void> TracksParams::validate() const {
   if (!(first_short > 0.0)) return fail("tracks.first_short must be > 0");
   if (!(too_short >= 0.0 && too_short <= 1.0)) return fail("tracks.too_short must be 0..1");
   if (!(part_beams >= 0.0)) return fail("tracks.part_beams must be >= 0");
-  if (!(hopeless > 0.0 && given >= 0.0 && carried_off >= 0.0 && startled >= 0.0 && startled_given >= 0.0 &&
-        most_heard >= 0.0))
-    return fail("tracks.hopeless must be > 0, given, carried_off, startled, startled_given and most_heard >= 0");
+  if (!(hopeless > 0.0 && given >= 0.0 && followed >= 0.0 && carried_off >= 0.0 && startled >= 0.0 &&
+        startled_given >= 0.0 && most_heard >= 0.0))
+    return fail(
+        "tracks.hopeless must be > 0, given, followed, carried_off, startled, startled_given and most_heard >= 0");
   if (!(search_way > 0.0 && search_way_kept > 0.0 && search_way_calm > 0.0))
     return fail("tracks.search_way, search_way_kept and search_way_calm must be > 0");
   if (!(usual_nats > 0.0 && doubt_nats > 0.0)) return fail("tracks.usual_nats and doubt_nats must be > 0");
@@ -57,8 +58,12 @@ bool Tracks::is_due(const Pose2& odom_from_robot, bool is_startled) const {
   if (views_.empty()) return true;
   const View& last = views_.back();
   if (is_startled && !last.is_startled) return true;
-  const Pose2 moved = inverse(last.odom_from_robot) * odom_from_robot;
-  return norm(moved.position()) >= params_.spacing || std::abs(moved.theta.degrees()) >= params_.turned;
+  return !is_one_view(last.odom_from_robot, odom_from_robot);
+}
+
+bool Tracks::is_one_view(const Pose2& odom_from_robot, const Pose2& other) const {
+  const Pose2 moved = inverse(odom_from_robot) * other;
+  return norm(moved.position()) < params_.spacing && std::abs(moved.theta.degrees()) < params_.turned;
 }
 
 std::vector<PartCost> Tracks::costs_at(const View& view, const Pose2& pose) const {
@@ -87,7 +92,11 @@ double Tracks::least_nats() const {
 }
 
 void Tracks::drop_first_view() {
-  // What is forgotten of a way is still held against it.
+  // What is forgotten of a way is still held against it, but for what another view of the same place goes on saying: a
+  // robot that turns on one spot for minutes would else be told ever more of it.
+  const bool is_seen_again = std::any_of(views_.begin() + 1, views_.end(), [&](const View& view) {
+    return is_one_view(views_.front().odom_from_robot, view.odom_from_robot);
+  });
   for (Track& track : tracks_) {
     if (track.since > 0) {
       --track.since;
@@ -97,11 +106,12 @@ void Tracks::drop_first_view() {
     track.sums.take_out(track.costs.front());
     track.costs.pop_front();
     track.poses.pop_front();
-    track.past += before - nats(track);
+    if (!is_seen_again) track.past += before - nats(track);
   }
   views_.pop_front();
+  if (is_seen_again) return;
   // Whoever has followed one way for long is not told by a place that explains the last metres alone.
-  given_ = std::max(given_, std::min(params_.given, given_ + params_.given / params_.most_views));
+  given_ = std::max(given_, std::min(params_.followed, given_ + params_.followed / params_.most_views));
 }
 
 void Tracks::add_view(const sensor_models::RangeSweep& sweep, const Pose2& odom_from_robot, bool is_startled,

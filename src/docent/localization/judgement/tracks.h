@@ -33,6 +33,7 @@ struct TracksParams {
   double part_beams = 10.0;       ///< readings that count half of what many of one part do
   double hopeless = 15.0;         ///< [nat] behind the best: a way that is followed no longer
   double given = 6.0;             ///< [nat] that a start which somebody gave is likelier than other places
+  double followed = 6.0;          ///< [nat] likewise, the way that it has followed for the last `most_views` views
   double carried_off = 9.0;       ///< [nat] that it costs to say: somebody has carried the robot; and
   double startled = 2.0;          ///< [nat] where what it saw changed at once
   double startled_given = 2.0;    ///< [nat] likewise, where somebody has told the start
@@ -57,6 +58,7 @@ struct TracksParams {
     v("part_beams", part_beams);
     v("hopeless", hopeless);
     v("given", given);
+    v("followed", followed);
     v("carried_off", carried_off);
     v("startled", startled);
     v("startled_given", startled_given);
@@ -138,6 +140,8 @@ class Tracks {
   /// [nat] of the best way to explain the views before each, [views].
   [[nodiscard]] std::vector<double> best_before() const;
   void drop_first_view();
+  /// Of one place, and the same way.
+  [[nodiscard]] bool is_one_view(const Pose2& odom_from_robot, const Pose2& other) const;
   void prune();
 
   TracksParams params_;

@@ -27,6 +27,9 @@ constexpr DoubtWeights kWhenNot{-6.594, 0.200, 0.000, 0.000, 10.029, 14.982, 9.2
 /// three times, in simulation and in recorded buildings.
 constexpr double kOddsOfOthers = 0.4;
 constexpr double kLostWhereBlind = 0.05;  ///< P(lost) at least, of a robot that sees nothing
+/// P(lost) at least, of a place that somebody told and that the first looks did not bear out: in recorded logs such a
+/// place was wrong far more often than right, however well it fits.
+constexpr double kLostWhereTold = 0.5;
 
 }  // namespace
 
@@ -50,7 +53,8 @@ Result<void> VerdictParams::validate() const {
   if (!(enough_mass > 0.5 && enough_mass < 1.0)) return fail("verdict.enough_mass must be 0.5..1");
   if (!(too_little_mass >= 0.0 && too_little_mass < enough_mass))
     return fail("verdict.too_little_mass must be below enough_mass");
-  if (!(most_doubt > 0.0 && most_doubt <= 1.0)) return fail("verdict.most_doubt must be 0..1");
+  if (!(here > 0.0 && here <= no_longer_here && no_longer_here <= given_up && given_up <= 1.0))
+    return fail("verdict.here, no_longer_here and given_up must be 0..1, none above the next");
   if (!(widest_spread > 0.0)) return fail("verdict.widest_spread must be > 0");
   if (!(confirmations >= 0.0 && travelled >= 0.0 && turned >= 0.0))
     return fail("verdict.confirmations, travelled and turned must be >= 0");
@@ -68,12 +72,12 @@ void Verdict::assume_localized() {
   reset();
   confirmed_ = params_.confirmations;
   way_ = params_.travelled;
-  keeps_its_place_ = true;
+  keeps_its_place_ = is_told_ = true;
 }
 
 void Verdict::uproot() {
-  localized_ = keeps_its_place_ = false;
-  doubtful_ = 0;
+  localized_ = keeps_its_place_ = has_said_ = has_found_ = is_told_ = false;
+  unsure_ = hopeless_ = 0;
   confirmed_ = way_ = turn_ = 0.0;
 }
 
@@ -93,7 +97,7 @@ void Verdict::add(const Evidence& evidence) {
   constexpr double kTooLittleShare = 0.5;  // another place is the likelier
   const bool is_good = evidence.mass >= params_.enough_mass && evidence.share >= params_.enough_share &&
                        evidence.spread <= params_.widest_spread;
-  if (!evidence.is_same_mode || (!is_good && !localized_)) {
+  if (!evidence.is_same_mode || (!is_good && !has_said_)) {
     confirmed_ = way_ = turn_ = 0.0;
   } else {
     confirmed_ += evidence.weight * evidence.views;
@@ -113,16 +117,18 @@ void Verdict::add(const Evidence& evidence) {
   share_ = evidence.share;
   spread_ = evidence.spread;
 
-  if (localized_) {
-    if (!evidence.is_same_mode || evidence.mass < params_.too_little_mass || evidence.share < kTooLittleShare ||
-        contradicted || blind_ > params_.blind_way)
-      localized_ = false;
-  } else {
-    localized_ = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0 && p_lost(true) <= params_.most_doubt;
-  }
+  const bool is_borne_on = evidence.is_same_mode && evidence.mass >= params_.too_little_mass &&
+                           evidence.share >= kTooLittleShare && !contradicted && blind_ <= params_.blind_way;
+  const bool stays = has_said_ && is_borne_on;
+  const bool is_found = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0;
+  has_found_ = has_found_ ? is_borne_on : is_found && p_lost(true) <= params_.given_up;
+  localized_ = localized_ ? stays && lasting_doubt() <= params_.no_longer_here
+                          : (stays || is_found) && p_lost(true) <= params_.here;
   if (!localized_ && contradicted) confirmed_ = way_ = turn_ = 0.0;
   keeps_its_place_ =
       localized_ || (keeps_its_place_ && evidence.is_same_mode && !contradicted && evidence.share >= kTooLittleShare);
+  has_said_ = localized_ || (has_said_ && keeps_its_place_);
+  is_told_ = is_told_ && !localized_;
 }
 
 void Verdict::look(const Glance& glance) {
@@ -135,8 +141,22 @@ void Verdict::look(const Glance& glance) {
 
   constexpr int kPatience = 8;          // glances: somebody who steps before the robot is a doubt for less
   const bool was_judged = mass_ > 0.0;  // not yet where the place was given
-  doubtful_ = keeps_its_place_ && was_judged && p_lost(true) > params_.most_doubt ? doubtful_ + 1 : 0;
-  if (doubtful_ >= kPatience) uproot();
+  const double doubt = keeps_its_place_ && was_judged ? p_lost(true) : 0.0;
+  unsure_ = doubt > params_.no_longer_here ? unsure_ + 1 : 0;
+  hopeless_ = doubt > params_.given_up ? hopeless_ + 1 : 0;
+  if (unsure_ >= kPatience) localized_ = false;
+  if (hopeless_ >= kPatience) uproot();
+}
+
+double Verdict::p_lost() const {
+  const double lost = p_lost(has_said_);
+  return has_said_ ? lost : std::max(lost, is_told_ ? std::max(kLostWhereTold, params_.here) : params_.here);
+}
+
+double Verdict::lasting_doubt() const {
+  Verdict calm = *this;
+  calm.glance_.through = calm.hidden_ = 0.0;
+  return calm.p_lost(true);
 }
 
 double Verdict::p_lost(bool has_said) const {

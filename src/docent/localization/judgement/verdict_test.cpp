@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace docent::localization {
@@ -64,6 +65,54 @@ TEST(Verdict, DoubtFallsWithConfirmationAndIsSmallWhenSure) {
   const double young = verdict.p_lost();
   EXPECT_GT(young, sure().p_lost());
   EXPECT_LT(sure().p_lost(), 0.01);
+}
+
+TEST(Verdict, HereIsPLostBelowOneBoundWithHysteresis) {
+  const VerdictParams params;
+  Verdict verdict = sure();
+  int taken_back = 0, said_again = 0;
+  for (int step = 0; step < 200; ++step) {
+    Evidence twin = good();
+    twin.share = 0.77 + 0.23 * std::cos(step * 2.0 * std::numbers::pi / 100.0);  // two rounds down and up again
+    const bool was_here = verdict.localized();
+    verdict.add(twin);
+    verdict.look({0.0, 0.1, 0.0, 40});
+    taken_back += was_here && !verdict.localized() ? 1 : 0;
+    said_again += !was_here && verdict.localized() ? 1 : 0;
+    if (verdict.localized()) EXPECT_LE(verdict.p_lost(), params.no_longer_here);
+    if (!verdict.localized()) EXPECT_GE(verdict.p_lost(), params.here);
+  }
+  EXPECT_EQ(taken_back, 2);
+  EXPECT_EQ(said_again, 2);
+}
+
+TEST(Verdict, WhoHasNotSaidHereIsNeverSureOfIt) {
+  Verdict verdict{{}};
+  for (int i = 0; i < 20 && !verdict.localized(); ++i) {
+    EXPECT_GE(verdict.p_lost(), VerdictParams{}.here);
+    verdict.add(good());
+  }
+  EXPECT_LT(verdict.p_lost(), 0.01);
+}
+
+TEST(Verdict, AToldPlaceThatTheFirstLookDoesNotBearOutIsMoreLikelyWrongThanRight) {
+  Verdict verdict{{}};
+  verdict.assume_localized();
+  Evidence other = good();
+  other.share = 0.9;  // another place looks like it
+  verdict.add(other);
+  EXPECT_FALSE(verdict.localized());
+  EXPECT_GE(verdict.p_lost(), 0.5);
+}
+
+TEST(Verdict, AWallMoreOrLessWithinReachIsNobodyWhoHasCome) {
+  Verdict verdict = sure();
+  for (int i = 0; i < 40; ++i) {
+    verdict.look({0.0, 0.0, 0.0, 9});  // too few to tell
+    verdict.look({0.0, 0.8, 0.0, 10});
+  }
+  EXPECT_LT(verdict.hidden(), 0.1);
+  EXPECT_TRUE(verdict.localized());
 }
 
 TEST(Verdict, ATwinPlaceIsDoubtHoweverWellTheReadingsFit) {

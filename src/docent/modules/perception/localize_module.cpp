@@ -1,5 +1,6 @@
 #include "docent/modules/perception/localize_module.h"
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -118,6 +119,8 @@ class LocalizeModule final : public Module {
     const std::string notes = scanners_->notes();
     if (!watch_.is_localized()) {
       std::string reason = localization::hindrance_of(watch_.verdict().doubt(), params_.markov.verdict);
+      if (reason.empty())
+        reason = "it may be elsewhere by " + std::to_string(std::lround(100.0 * watch_.verdict().p_lost())) + " %";
       for (const std::string& more : {scanners_->hindrances(), notes}) reason += more.empty() ? "" : "; " + more;
       return {"degraded", "I do not know where I am: " + reason};
     }
