@@ -79,8 +79,11 @@ TEST(Verdict, HereIsPLostBelowOneBoundWithHysteresis) {
     verdict.look({0.0, 0.1, 0.0, 40});
     taken_back += was_here && !verdict.localized() ? 1 : 0;
     said_again += !was_here && verdict.localized() ? 1 : 0;
-    if (verdict.localized()) EXPECT_LE(verdict.p_lost(), params.no_longer_here);
-    if (!verdict.localized()) EXPECT_GE(verdict.p_lost(), params.here);
+    if (verdict.localized()) {
+      EXPECT_LE(verdict.p_lost(), params.no_longer_here);
+    } else {
+      EXPECT_GE(verdict.p_lost(), params.here);
+    }
   }
   EXPECT_EQ(taken_back, 2);
   EXPECT_EQ(said_again, 2);
@@ -281,14 +284,21 @@ TEST(Verdict, PeopleAllRoundDoNot) {
   EXPECT_TRUE(verdict.localized());
 }
 
-TEST(Verdict, AWallMoreOrLessWithinReachIsNobodyWhoHasCome) {
-  Verdict verdict = sure();
-  for (int i = 0; i < 40; ++i) {
-    verdict.look({0.0, 0.0, 0.0, 9});  // too few to tell
-    verdict.look({0.0, 0.8, 0.0, 10});
+TEST(Verdict, AFoundPlaceOfWhichItDoubtsIsKeptForHindsight) {
+  VerdictParams params;
+  params.here = 1e-6;  // it is never so sure
+  Verdict verdict{params};
+  bool was_found = false;
+  for (int i = 0; i < 30; ++i) {
+    verdict.add(good());
+    EXPECT_FALSE(verdict.localized());
+    was_found = was_found || verdict.has_found();
   }
-  EXPECT_LT(verdict.hidden(), 0.1);
-  EXPECT_TRUE(verdict.localized());
+  EXPECT_TRUE(was_found);
+  Evidence other = good();
+  other.is_same_mode = false;
+  verdict.add(other);
+  EXPECT_FALSE(verdict.has_found());
 }
 
 }  // namespace
