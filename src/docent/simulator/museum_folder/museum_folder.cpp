@@ -92,7 +92,7 @@ std::string to_yaml(const World& world) {
                      "\nhome: " + point(world.home) + "\nvisitors_per_hour: " + number(world.visitors_per_hour) +
                      "\nexhibits: " + list(world.exhibits) + "\ntours: " + list(world.tours) + "\nsolids:\n";
   for (const Solid& solid : world.solids) {
-    text += "  - {id: " + solid.id + ", kind: " + to_string(solid.kind) + ", bottom: " + number(solid.bottom) +
+    text += "  - {id: " + solid.id + ", kind: " + kind_name(solid) + ", bottom: " + number(solid.bottom) +
             ", top: " + number(solid.top) + (solid.movable ? ", movable: true" : "") +
             ", polygon: " + corners(solid.polygon) + "}\n";
   }
