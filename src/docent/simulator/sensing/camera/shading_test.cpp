@@ -1,10 +1,13 @@
 #include "docent/simulator/sensing/camera/shading.h"
 
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "docent/simulator/sensing/camera/hall_for_test.h"
+#include "docent/simulator/sensing/camera/optics/picture_sensor.h"
 #include "docent/simulator/sensing/camera/renderer.h"
 #include "docent/simulator/sensing/camera/things/marks.h"
 
@@ -81,6 +84,37 @@ TEST(Shading, AMarkCanBeReadThroughABentLens) {
       const auto i = static_cast<std::size_t>(static_cast<int>(pixel->y) * lens.width + static_cast<int>(pixel->x));
       EXPECT_EQ(raw.light[i].green > 0.4F, tag.at(column, row).green > 127) << row << " " << column;
     }
+}
+
+TEST(Shading, ADetectorFindsMarksOnAWallAndUnderTheCeiling) {
+  World world = wide_hall(CeilingKind::various);
+  world.marks = {{"wall", 17, {12.0, 15.0}, 0.5, Angle::degrees(180.0), 0.1, 0.16},
+                 {"overhead", 301, {11.0, 15.0}, 2.9, {}, -kUp, 0.2}};
+  Renderer renderer;
+  renderer.set_furnishing(furnish(world));
+  apriltag_family_t* family = tag36h11_create();
+  apriltag_detector_t* detector = apriltag_detector_create();
+  apriltag_detector_add_family(detector, family);
+  const auto found = [&](const CameraMount& mount, Angle heading) {
+    Rng rng{1};
+    const RayTable lens{plain_lens(320, 240, 1.1)};
+    const RawPicture raw = renderer.expose(viewpoint_of(mount, {11.0, 14.8, heading}), lens);
+    std::vector<std::uint8_t> grey = develop_grey(raw, {}, rng);
+    image_u8_t image{320, 240, 320, grey.data()};
+    zarray_t* detections = apriltag_detector_detect(detector, &image);
+    std::vector<int> ids;
+    for (int i = 0; i < zarray_size(detections); ++i) {
+      apriltag_detection_t* detection = nullptr;
+      zarray_get(detections, i, &detection);
+      ids.push_back(detection->id);
+    }
+    apriltag_detections_destroy(detections);
+    return ids;
+  };
+  EXPECT_EQ(found({.z = 0.6, .tilt = -0.1}, Angle::degrees(12.0)), std::vector<int>{17});
+  EXPECT_EQ(found({.z = 1.2, .tilt = kUp}, Angle::degrees(70.0)), std::vector<int>{301});
+  apriltag_detector_destroy(detector);
+  tag36h11_destroy(family);
 }
 
 }  // namespace
