@@ -108,9 +108,9 @@ Rgb panel(const CeilingField& field, const Place& p, Point2 in_grid, float footp
   if (footprint < 0.05F) color = (0.97F + 0.06F * noise(field.seed + 1, gx, gy, 0.06F)) * color;
   const float lot = part_of(fate, 0);
   if (lot < 0.012F) return missing_panel(p, fate);
-  if (lot < 0.07F) return stained_panel(color, p, field, fate);
-  if (lot < 0.11F) return vented_panel(color, p, field, fate, footprint);
-  if (lot < 0.16F) return dotted_panel(color, p, field, fate);
+  if (lot < 0.09F) return stained_panel(color, p, field, fate);
+  if (lot < 0.145F) return vented_panel(color, p, field, fate, footprint);
+  if (lot < 0.22F) return dotted_panel(color, p, field, fate);
   return color;
 }
 
