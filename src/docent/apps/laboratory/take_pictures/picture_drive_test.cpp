@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "docent/apps/laboratory/take_pictures/drawn_hall.h"
-#include "docent/apps/laboratory/take_pictures/picture_rig.h"
 
 namespace docent::apps::take_pictures_command {
 namespace {
@@ -66,18 +65,6 @@ TEST(PictureDrive, OdometryDriftsAndTheMapsPosesDoNot) {
   }
   EXPECT_GT(odometry, 0.5);
   EXPECT_NEAR(map, 0.045, 0.02);
-}
-
-TEST(PictureRig, IsALittleDifferentFromWhatIsTold) {
-  const PictureRig told = told_rig({});
-  const PictureRig rig = true_rig(told, Rng{1}), other = true_rig(told, Rng{2});
-  EXPECT_NE(to_yaml(rig), to_yaml(told));
-  EXPECT_NE(to_yaml(rig), to_yaml(other));
-  EXPECT_NEAR(rig.up.lens.focal_x, told.up.lens.focal_x, 0.02 * told.up.lens.focal_x);
-  EXPECT_NEAR(rig.up.mount.tilt, told.up.mount.tilt, 0.03);
-  const PictureRig large = told_rig({.width = 640, .height = 480, .fisheye = true});
-  EXPECT_DOUBLE_EQ(large.front.lens.focal_x, 2.0 * told.front.lens.focal_x);
-  EXPECT_EQ(large.up.lens.kind, simulator::LensKind::fisheye);
 }
 
 }  // namespace

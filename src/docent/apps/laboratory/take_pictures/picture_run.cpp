@@ -4,26 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "docent/base/files.h"
 #include "docent/pictures/png/png_file.h"
 #include "docent/simulator/sensing/camera/ceiling/ceiling_design.h"
-#include "docent/simulator/sensing/camera/optics/depth_sensor.h"
-#include "docent/simulator/sensing/camera/optics/picture_sensor.h"
-#include "docent/simulator/sensing/camera/optics/shake.h"
-#include "docent/simulator/sensing/camera/renderer.h"
 
 namespace docent::apps::take_pictures_command {
 namespace {
 
 using simulator::RawPicture;
-using simulator::RayTable;
-
-constexpr double kRadiansOfDegree = std::numbers::pi / 180.0;
-constexpr double kTypicalDistance = 2.0;  // [m] of what blurs
-constexpr int kMostBlur = 6;              // pictures that are averaged
-constexpr double kHeightCell = 0.5;       // [m] of the grid of heights
+constexpr double kHeightCell = 0.5;  // [m] of the grid of heights
 
 template <class... Numbers>
 std::string line(const char* form, Numbers... numbers) {
@@ -43,12 +33,7 @@ class PictureRun {
         options_{options},
         folder_{std::move(folder)},
         rng_{Rng{options.seed}.stream("pictures")},
-        told_{told_rig(options.rig)},
-        true_{true_rig(told_, rng_.stream("rig"))},
-        up_{true_.up.lens},
-        front_{true_.front.lens},
-        depth_{true_.depth.lens},
-        shake_{options.lean * kRadiansOfDegree, options.seed},
+        eyes_{options.eyes},
         up_gains_{gains("up gains")},
         front_gains_{gains("front gains")} {
     renderer_.set_furnishing(simulator::furnish(world));
@@ -66,26 +51,26 @@ class PictureRun {
   }
 
   Result<void> take(std::size_t i) {
-    const double time = drive_.moments[drive_.pictures[i]].time;
+    const Moment& moment = drive_.moments[drive_.pictures[i]];
+    simulator::Glimpse glimpse{.time = moment.time, .world_from_base = moment.world_from_base};
+    const Pose2 next = inverse(moment.world_from_base) * drive_.at(moment.time + kTick);
+    glimpse.linear = next.x / kTick, glimpse.angular = next.theta.radians() / kTick;
+    glimpse.lighting = options_.lighting;
     Rng noise = rng_.stream("noise " + std::to_string(i));
+    const auto& rig = options_.eyes.rig;
     if (options_.up) {
-      simulator::PictureSensor sensor{.gain = 0.75 * up_gains_[i], .vignetting = 0.3};
-      const auto grey = develop_grey(exposed(true_.up, up_, time), sensor, noise);
-      const auto saved = save("up", i, pictures::encode_png(up_.width(), up_.height(), grey));
-      if (!saved) return saved;
+      glimpse.gain = up_gains_[i];
+      const auto grey = eyes_.look_up(renderer_, glimpse, noise);
+      if (auto saved = save("up", i, pictures::encode_png(rig.width, rig.height, grey)); !saved) return saved;
     }
     if (options_.front) {
-      simulator::PictureSensor sensor{.gain = 0.9 * front_gains_[i], .vignetting = 0.25, .colour_cast = 0.04};
-      const auto image = develop(exposed(true_.front, front_, time), sensor, noise);
-      const auto saved = save("front", i, pictures::encode_png(image));
-      if (!saved) return saved;
+      glimpse.gain = front_gains_[i];
+      const auto image = eyes_.look_ahead(renderer_, glimpse, noise);
+      if (auto saved = save("front", i, pictures::encode_png(image)); !saved) return saved;
     }
     if (options_.depth) {
-      const simulator::DepthSensor sensor;
-      const auto raw = renderer_.probe(view(true_.depth, time), depth_, sensor.baseline);
-      const auto depths = measure(raw, sensor, true_.depth.lens.focal_x, noise);
-      const auto saved = save("depth", i, pictures::encode_png(depth_.width(), depth_.height(), depths));
-      if (!saved) return saved;
+      const auto depths = eyes_.measure_depths(renderer_, glimpse, noise);
+      if (auto saved = save("depth", i, pictures::encode_png(rig.width, rig.height, depths)); !saved) return saved;
     }
     return {};
   }
@@ -97,7 +82,7 @@ class PictureRun {
     for (std::size_t i = 0; i < drive_.pictures.size(); ++i) {
       const Moment& moment = drive_.moments[drive_.pictures[i]];
       const Pose2 &o = told.odometry[i], &m = told.map[i], &t = moment.world_from_base;
-      const simulator::Lean lean = shake_.at(moment.time);
+      const simulator::Lean lean = eyes_.lean_at(moment.time);
       const int number = static_cast<int>(i);
       poses += line("%06d,%.3f,%.5f,%.5f,%.6f,%.5f,%.5f,%.6f\n", number, moment.time, o.x, o.y, o.theta.radians(), m.x,
                     m.y, m.theta.radians());
@@ -107,8 +92,8 @@ class PictureRun {
     for (const auto& [name, text] :
          std::array<std::pair<const char*, std::string>, 5>{{{"poses.csv", poses},
                                                              {"truth/poses.csv", truth},
-                                                             {"cameras.yaml", to_yaml(told_)},
-                                                             {"truth/cameras.yaml", to_yaml(true_)},
+                                                             {"cameras.yaml", to_yaml(eyes_.told())},
+                                                             {"truth/cameras.yaml", to_yaml(eyes_.truth())},
                                                              {"truth/ceiling.csv", heights()}}}) {
       if (auto written = write_file_atomically(folder_ / name, text); !written) return written;
     }
@@ -119,22 +104,6 @@ class PictureRun {
   [[nodiscard]] std::vector<double> gains(const char* stream) const {
     return simulator::stepped_gains(drive_.pictures.size(), options_.exposure_steps, options_.exposure_range,
                                     rng_.stream(stream));
-  }
-  [[nodiscard]] simulator::Viewpoint view(const Eye& eye, double time) const {
-    return simulator::viewpoint_of(eye.mount, drive_.at(time), shake_.at(time));
-  }
-  /// The mean of some views while the shutter is open: as many as the picture moves pixels.
-  [[nodiscard]] RawPicture exposed(const Eye& eye, const RayTable& lens, double time) const {
-    const double open = time - 0.5 * options_.exposure, shut = time + 0.5 * options_.exposure;
-    const Pose2 before = drive_.at(open), after = drive_.at(shut);
-    const double moved = eye.lens.focal_x * (distance(before.position(), after.position()) / kTypicalDistance +
-                                             std::abs((after.theta - before.theta).radians()));
-    const int count = std::clamp(static_cast<int>(std::ceil(moved)), 1, kMostBlur);
-    std::vector<RawPicture> views;
-    for (int k = 0; k < count; ++k)
-      views.push_back(
-          renderer_.expose(view(eye, open + options_.exposure * (k + 0.5) / count), lens, options_.lighting));
-    return simulator::mean_of(views);
   }
   [[nodiscard]] Result<void> save(const char* kind, std::size_t i, const Result<std::string>& file) const {
     if (!file) return tl::unexpected<Error>(file.error());
@@ -160,9 +129,7 @@ class PictureRun {
   const PictureRunOptions& options_;
   std::filesystem::path folder_;
   Rng rng_;
-  PictureRig told_, true_;
-  RayTable up_, front_, depth_;
-  simulator::Shake shake_;
+  simulator::RobotEyes eyes_;
   std::vector<double> up_gains_, front_gains_;
   simulator::Renderer renderer_;
 };

@@ -4,19 +4,16 @@
 #include <functional>
 
 #include "docent/apps/laboratory/take_pictures/picture_drive.h"
-#include "docent/apps/laboratory/take_pictures/picture_rig.h"
-#include "docent/simulator/sensing/camera/ceiling/ceiling.h"
+#include "docent/simulator/sensing/camera/eyes/robot_eyes.h"
 
 namespace docent::apps::take_pictures_command {
 
 struct PictureRunOptions {
-  RigOptions rig;
+  simulator::RobotEyesParams eyes;
   bool up = true;  ///< these pictures are taken
   bool front = true;
   bool depth = true;
-  std::uint64_t seed = 1;        ///< of lens errors, noise, rocking, exposure and what is told of poses
-  double lean = 0.3;             ///< [degrees] the base rocks so far about each axis
-  double exposure = 0.01;        ///< [s] a picture is exposed
+  std::uint64_t seed = 1;        ///< of noise, gains and what is told of poses; the eyes have their own
   double exposure_steps = 0.02;  ///< chance of another exposure, a picture
   double exposure_range = 0.7;   ///< [stops] up and down
   simulator::Lighting lighting;

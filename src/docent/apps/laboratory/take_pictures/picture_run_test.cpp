@@ -18,7 +18,7 @@ TEST(PictureRun, WritesPicturesWithWhatIsToldAndWhatIsTrue) {
   const auto drive = drive_everywhere(world, options, Rng{1});
   ASSERT_TRUE(drive);
   PictureRunOptions run;
-  run.rig = {.width = 64, .height = 48};
+  run.eyes.rig = {.width = 64, .height = 48};
   const auto write = [&](const std::filesystem::path& folder) {
     std::size_t count = 0;
     const auto done = take_pictures(world, *drive, run, folder, [&](std::size_t now) { count = now; });

@@ -53,6 +53,7 @@ void run(Options options) {
   };
   options.run.up = is_wanted("up"), options.run.front = is_wanted("front"), options.run.depth = is_wanted("depth");
   for (const int circuit : options.dark) options.run.lighting.circuits[static_cast<std::size_t>(circuit)] = 0.0F;
+  options.run.eyes.seed = options.run.seed;
   const simulator::World world = world_of(options);
   const Drive drive = drive_of(options, world);
   const std::size_t all = drive.pictures.size();
@@ -83,13 +84,15 @@ void add_cameras(CLI::App& command, Options& options) {
   command.add_option("--kinds", options.kinds, "Pictures of the camera that looks up, of the one in front, depths")
       ->check(CLI::IsMember({"up", "front", "depth"}))
       ->capture_default_str();
-  command.add_option("--width", options.run.rig.width, "[pixels]")->check(CLI::Range(64, 1920))->capture_default_str();
-  command.add_option("--height", options.run.rig.height, "[pixels]")
+  command.add_option("--width", options.run.eyes.rig.width, "[pixels]")
+      ->check(CLI::Range(64, 1920))
+      ->capture_default_str();
+  command.add_option("--height", options.run.eyes.rig.height, "[pixels]")
       ->check(CLI::Range(48, 1200))
       ->capture_default_str();
-  command.add_flag("--fisheye", options.run.rig.fisheye, "The camera that looks up has a fisheye");
+  command.add_flag("--fisheye", options.run.eyes.rig.fisheye, "The camera that looks up has a fisheye");
   add_seed(command, "--seed", options.run.seed, "Of errors of lenses and mounts, noise, rocking, exposure, odometry");
-  command.add_option("--lean", options.run.lean, "[degrees] that the base rocks")
+  command.add_option("--lean", options.run.eyes.lean, "[degrees] that the base rocks")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command.add_option("--exposure-steps", options.run.exposure_steps, "Chance of another exposure, a picture")

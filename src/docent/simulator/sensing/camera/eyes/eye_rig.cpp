@@ -1,17 +1,14 @@
-#include "docent/apps/laboratory/take_pictures/picture_rig.h"
+#include "docent/simulator/sensing/camera/eyes/eye_rig.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
-namespace docent::apps::take_pictures_command {
+namespace docent::simulator {
 namespace {
 
-using simulator::LensKind;
-using simulator::LensModel;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadiansOfDegree = std::numbers::pi / 180.0;
 
 /// Numbers of a lens for a picture of 320 pixels, for one of any width.
 LensModel scaled(LensModel lens, const RigOptions& options) {
@@ -41,8 +38,8 @@ LensModel disturbed(LensModel lens, Rng& rng) {
   return lens;
 }
 
-simulator::CameraMount disturbed(simulator::CameraMount mount, Rng& rng) {
-  constexpr double kPlace = 0.004, kTurn = 0.35 * kDegree;  // deviations: [m], [rad]
+CameraMount disturbed(CameraMount mount, Rng& rng) {
+  constexpr double kPlace = 0.004, kTurn = 0.35 * kRadiansOfDegree;  // deviations: [m], [rad]
   mount.x += kPlace * rng.normal(), mount.y += kPlace * rng.normal(), mount.z += kPlace * rng.normal();
   mount.pan += kTurn * rng.normal(), mount.tilt += kTurn * rng.normal(), mount.roll += kTurn * rng.normal();
   return mount;
@@ -67,12 +64,12 @@ std::string text_of(const char* name, const Eye& eye) {
                                       : filled("  distortion: [%.7f, %.7f, %.7f, %.7f, %.7f]\n", l.brown[0], l.brown[1],
                                                l.brown[2], l.brown[3], l.brown[4]);
   return text + filled("  mount: {x: %.4f, y: %.4f, z: %.4f, pan: %.4f, tilt: %.4f, roll: %.4f}\n", m.x, m.y, m.z,
-                       m.pan / kDegree, m.tilt / kDegree, m.roll / kDegree);
+                       m.pan / kRadiansOfDegree, m.tilt / kRadiansOfDegree, m.roll / kRadiansOfDegree);
 }
 
 }  // namespace
 
-PictureRig told_rig(const RigOptions& options) {
+EyeRig told_rig(const RigOptions& options) {
   LensModel up;
   up.focal_x = up.focal_y = 205.0;  // 76 degrees across
   up.centre_x = 161.5, up.centre_y = 118.7;
@@ -90,20 +87,22 @@ PictureRig told_rig(const RigOptions& options) {
   LensModel depth;
   depth.focal_x = depth.focal_y = 290.0;  // 58 degrees; its driver hands out undistorted pictures
   return {
-      {scaled(up, options), {.x = 0.10, .y = 0.0, .z = 1.25, .pan = 0.0, .tilt = 90.0 * kDegree, .roll = 0.0}},
-      {scaled(front, options), {.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = -28.0 * kDegree, .roll = 0.0}},
-      {scaled(depth, options), {.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = -30.0 * kDegree, .roll = 0.0}}};
+      {scaled(up, options), {.x = 0.10, .y = 0.0, .z = 1.25, .pan = 0.0, .tilt = 90.0 * kRadiansOfDegree, .roll = 0.0}},
+      {scaled(front, options),
+       {.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = -28.0 * kRadiansOfDegree, .roll = 0.0}},
+      {scaled(depth, options),
+       {.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = -30.0 * kRadiansOfDegree, .roll = 0.0}}};
 }
 
-PictureRig true_rig(const PictureRig& told, Rng rng) {
-  PictureRig rig;
+EyeRig true_rig(const EyeRig& told, Rng rng) {
+  EyeRig rig;
   rig.up = {disturbed(told.up.lens, rng), disturbed(told.up.mount, rng)};
   rig.front = {disturbed(told.front.lens, rng), disturbed(told.front.mount, rng)};
   rig.depth = {disturbed(told.depth.lens, rng), disturbed(told.depth.mount, rng)};
   return rig;
 }
 
-std::string to_yaml(const PictureRig& rig) {
+std::string to_yaml(const EyeRig& rig) {
   return "# Pixels from the upper left corner of the picture, degrees, metres in the base's frame (x ahead, y left, z "
          "up).\n"
          "# brown: k1 k2 p1 p2 k3; fisheye: k1..k4 of the angle. tilt 90 looks up, its picture's upper edge to the "
@@ -111,4 +110,4 @@ std::string to_yaml(const PictureRig& rig) {
          text_of("up", rig.up) + text_of("front", rig.front) + text_of("depth", rig.depth);
 }
 
-}  // namespace docent::apps::take_pictures_command
+}  // namespace docent::simulator

@@ -6,16 +6,16 @@
 #include "docent/simulator/sensing/camera/optics/lens_model.h"
 #include "docent/simulator/sensing/camera/optics/viewpoint.h"
 
-namespace docent::apps::take_pictures_command {
+namespace docent::simulator {
 
 /// A camera on the robot.
 struct Eye {
-  simulator::LensModel lens;
-  simulator::CameraMount mount;
+  LensModel lens;
+  CameraMount mount;
 };
 
 /// Three of them: one that looks at the ceiling, one ahead and down, and a depth camera beside it.
-struct PictureRig {
+struct EyeRig {
   Eye up, front, depth;
 };
 
@@ -26,10 +26,10 @@ struct RigOptions {
 };
 
 /// As the drawings of the robot have it and a calibration found it.
-[[nodiscard]] PictureRig told_rig(const RigOptions& options);
+[[nodiscard]] EyeRig told_rig(const RigOptions& options);
 /// As it is: lenses and mounts are a little different, by chance.
-[[nodiscard]] PictureRig true_rig(const PictureRig& told, Rng rng);
+[[nodiscard]] EyeRig true_rig(const EyeRig& told, Rng rng);
 /// All constants. Angles in degrees.
-[[nodiscard]] std::string to_yaml(const PictureRig& rig);
+[[nodiscard]] std::string to_yaml(const EyeRig& rig);
 
-}  // namespace docent::apps::take_pictures_command
+}  // namespace docent::simulator
