@@ -79,15 +79,24 @@ class Renderer::Impl {
   }
   void set(Mesh figures) { scene_.set(TracedScene::moving, std::move(figures), true); }
 
+  /// With what a sensor has to know of its rays.
   RawPicture expose(const Viewpoint& viewpoint, const RayTable& lens, const Lighting& lighting) const {
+    RawPicture raw = light_on(viewpoint, lens, lighting);
+    raw.where.resize(raw.light.size());
+    for (int y = 0; y < lens.height(); ++y)
+      for (int x = 0; x < lens.width(); ++x)
+        if (lens.sees(x, y))
+          raw.where[static_cast<std::size_t>(y) * static_cast<std::size_t>(lens.width()) +
+                    static_cast<std::size_t>(x)] = lens.through(x, y, 0.5F, 0.5F);
+    return raw;
+  }
+
+  RawPicture light_on(const Viewpoint& viewpoint, const RayTable& lens, const Lighting& lighting) const {
     const Aim aim{viewpoint, lens};
     const CeilingLight::Field light = light_.field(lighting);
     const Shading shading{scene_, ceiling_, posters_, light, lens.pixel_angle()};
     const auto pixels = static_cast<std::size_t>(lens.width()) * static_cast<std::size_t>(lens.height());
-    RawPicture raw{lens.width(), lens.height(), std::vector<Rgb>(pixels), std::vector<Vec3>(pixels)};
-    for (int y = 0; y < lens.height(); ++y)
-      for (int x = 0; x < lens.width(); ++x)
-        if (lens.sees(x, y)) raw.where[aim.index(x, y)] = lens.through(x, y, 0.5F, 0.5F);
+    RawPicture raw{lens.width(), lens.height(), std::vector<Rgb>(pixels), {}};
     std::vector<Sight> sights(pixels);
     aim.for_blocks([&](const Rays& rays, const std::array<std::ptrdiff_t, kPacket>& places) {
       const Sights met = scene_.look(aim.eye(), rays);
@@ -130,7 +139,7 @@ class Renderer::Impl {
 
   pictures::Image draw(const Lens& lens, const Lighting& lighting) const {
     const RayTable rays{plain_lens(lens.width, lens.height, lens.field_of_view)};
-    const RawPicture raw = expose(viewpoint_at(lens.eye, lens.pan, lens.tilt), rays, lighting);
+    const RawPicture raw = light_on(viewpoint_at(lens.eye, lens.pan, lens.tilt), rays, lighting);
     static const Gamma kGamma;
     pictures::Image image{lens.width, lens.height, pictures::colors::kBlack};
     const auto bytes = image.writable_bytes();
@@ -165,7 +174,7 @@ class Renderer::Impl {
       const Sights met = scene_.look(aim.eye(), rays);
       for (std::size_t k = 0; k < count; ++k) {
         const std::size_t at = edges[first + k];
-        if (dot(raw.where[at], raw.where[at]) == 0.0F) continue;
+        if (dot(rays[4 * k], rays[4 * k]) == 0.0F) continue;
         Rgb sum;
         for (std::size_t i = 0; i < 4; ++i) sum = sum + shading.shade(aim.eye(), rays[4 * k + i], met[4 * k + i]);
         raw.light[at] = 0.25F * sum;

@@ -51,10 +51,11 @@ Vec3 LensModel::ray(double u, double v) const {
   const Point2 seen{(u - centre_x) / focal_x, (v - centre_y) / focal_y};
   double x = 0.0, y = 0.0, z = 1.0;
   if (kind == LensKind::pinhole) {
-    const auto p = undistorted(brown, seen);
+    const bool is_straight = brown == std::array<double, 5>{};
+    const auto p = is_straight ? seen : undistorted(brown, seen);
     if (!p) return {0.0F, 0.0F, 0.0F};
     x = p->x, y = p->y;
-    if (std::atan(norm(*p)) > widest) return {0.0F, 0.0F, 0.0F};
+    if (!is_straight && std::atan(norm(*p)) > widest) return {0.0F, 0.0F, 0.0F};
   } else {
     const double bent_angle = norm(seen);
     const auto angle = straightened(fisheye, bent_angle);
@@ -70,7 +71,8 @@ std::optional<Point2> LensModel::pixel(Vec3 in_camera) const {
   const double x = in_camera.x, y = in_camera.y, z = in_camera.z;
   const double across = std::sqrt(x * x + y * y);
   const double angle = std::atan2(across, z);
-  if (angle > widest) return std::nullopt;
+  const bool is_straight = kind == LensKind::pinhole && brown == std::array<double, 5>{};
+  if (angle > widest && !is_straight) return std::nullopt;
   Point2 seen;
   if (kind == LensKind::pinhole) {
     if (!(z > 0.0)) return std::nullopt;

@@ -25,7 +25,8 @@ struct LensModel {
   std::array<double, 5> brown{};
   /// k1..k4: θ' = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸).
   std::array<double, 4> fisheye{};
-  double widest = 1.5;  ///< [rad] off the axis: light from farther aside does not reach the sensor
+  /// [rad] off the axis: light from farther aside does not reach the sensor; of lenses that distort.
+  double widest = 1.5;
 
   /// Where the light on a place of the picture comes from, of length 1; {0, 0, 0}: none does.
   [[nodiscard]] Vec3 ray(double u, double v) const;
