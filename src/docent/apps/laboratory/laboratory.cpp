@@ -8,6 +8,7 @@
 #include "docent/apps/laboratory/plan/plan_command.h"
 #include "docent/apps/laboratory/rooms/rooms_command.h"
 #include "docent/apps/laboratory/score_map/score_map_command.h"
+#include "docent/apps/laboratory/take_pictures/take_pictures_command.h"
 #include "docent/apps/laboratory/train_sonar/train_sonar_command.h"
 #include "docent/apps/replay/replay_command.h"
 #include "docent/apps/simulate/explore_command.h"
@@ -31,6 +32,7 @@ Program docent_lab(const std::string& version) {
                   {evaluate_command::add_evaluate_command, with_robot(crowd_command::add_crowd_command, robot),
                    plan_command::add_plan_command}},
                  {"Look at maps", {rooms_command::add_rooms_command, score_map_command::add_score_map_command}},
+                 {"See", {take_pictures_command::add_take_pictures_command}},
                  {"Learn",
                   {learn_command::add_learn_command, train_sonar_command::add_train_sonar_command,
                    with_robot(attract_command::add_attract_command, robot)}}},
@@ -46,6 +48,7 @@ Program docent_lab(const std::string& version) {
                    {"rooms", "rooms --museum museums/bonn --picture rooms.svg"},
                    {"score-map", "score-map --map explored/map.yaml --world museums/bonn/simulation.yaml"},
                    {"learn-sensor-model", "learn-sensor-model --museum museums/bonn --log run.mcap --out learned.yaml"},
+                   {"take-pictures", "take-pictures --opening 15 --out build/hall"},
                    {"train-sonar", "train-sonar --out sonar.json"},
                    {"attract", "attract --seed 1 --picture attract.svg"}}};
 }

@@ -6,7 +6,7 @@
 namespace docent::apps {
 
 /// The commands that `docent-lab` has and `docent` has not, so that `docent` can name the right program.
-inline constexpr std::array<std::string_view, 8> kLaboratoryCommands{
-    "attract", "crowd", "evaluate", "learn-sensor-model", "plan", "rooms", "score-map", "train-sonar"};
+inline constexpr std::array<std::string_view, 9> kLaboratoryCommands{
+    "attract", "crowd", "evaluate", "learn-sensor-model", "plan", "rooms", "score-map", "take-pictures", "train-sonar"};
 
 }  // namespace docent::apps

@@ -64,7 +64,7 @@ WalkableFloor::WalkableFloor(const World& world) {
     if (!contains(world.floor, centre)) clearance_[cell] = -clearance_[cell];
   });
   for (const Solid& solid : world.solids) {
-    if (solid.polygon.size() < 3 || solid.bottom >= kHeadroom) continue;
+    if (solid.polygon.size() < 3 || solid.bottom >= kHeadroom || is_litter(solid)) continue;
     for_cells_near(box_of(solid.polygon), [&](std::size_t cell, Point2 centre) {
       const double gap = outline_distance(solid.polygon, centre);
       const double signed_gap = gap < kFar && contains(solid.polygon, centre) ? -gap : gap;

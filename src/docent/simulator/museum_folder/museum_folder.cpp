@@ -84,6 +84,25 @@ std::string museum_yaml(const MuseumPlan& plan, const Survey& survey) {
   return text + "simulation: simulation.yaml\n";
 }
 
+/// What the file says of ceilings and marks; nothing where nothing was said.
+std::string overhead(const World& world) {
+  std::string text;
+  if (!world.ceiling.empty()) text += "ceiling:\n";
+  for (const CeilingPart& part : world.ceiling)
+    text += "  - {height: " + number(part.height) + ", polygon: " + corners(part.polygon) + "}\n";
+  const CeilingStyle& style = world.ceiling_style;
+  if (style.kind != CeilingKind::various || style.seed)
+    text += std::string{"ceiling_style: {kind: "} + to_string(style.kind) +
+            (style.seed ? ", seed: " + std::to_string(*style.seed) : "") + "}\n";
+  if (!world.marks.empty()) text += "marks:\n";
+  for (const Mark& mark : world.marks)
+    text += "  - {id: " + mark.id + ", tag: " + std::to_string(mark.tag) + ", x: " + number(mark.position.x) +
+            ", y: " + number(mark.position.y) + ", height: " + number(mark.height) +
+            ", heading: " + number(mark.heading.degrees()) + ", tilt: " + number(Angle::radians(mark.tilt).degrees()) +
+            ", size: " + number(mark.size) + "}\n";
+  return text;
+}
+
 }  // namespace
 
 std::string to_yaml(const World& world) {
@@ -92,7 +111,7 @@ std::string to_yaml(const World& world) {
                      "\nhome: " + point(world.home) + "\nvisitors_per_hour: " + number(world.visitors_per_hour) +
                      "\nexhibits: " + list(world.exhibits) + "\ntours: " + list(world.tours) + "\nsolids:\n";
   for (const Solid& solid : world.solids) {
-    text += "  - {id: " + solid.id + ", kind: " + to_string(solid.kind) + ", bottom: " + number(solid.bottom) +
+    text += "  - {id: " + solid.id + ", kind: " + kind_name(solid) + ", bottom: " + number(solid.bottom) +
             ", top: " + number(solid.top) + (solid.movable ? ", movable: true" : "") +
             ", polygon: " + corners(solid.polygon) + "}\n";
   }
@@ -105,6 +124,7 @@ std::string to_yaml(const World& world) {
     text += "scene_camera: {x: " + number(world.scene_camera->position.x) +
             ", y: " + number(world.scene_camera->position.y) + ", height: " + number(world.scene_camera->height) +
             "}\n";
+  text += overhead(world);
   if (!world.pedestrians_file.empty()) text += "pedestrians: " + world.pedestrians_file + "\n";
   return text;
 }

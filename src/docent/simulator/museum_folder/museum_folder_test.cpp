@@ -61,6 +61,29 @@ TEST_F(MuseumFolder, TheWorldIsReadBackAsItWas) {
   }
 }
 
+TEST_F(MuseumFolder, CeilingsMarksAndSmallThingsAreReadBack) {
+  Office office = draw_office(4);
+  EXPECT_EQ(to_yaml(office.world).find("ceiling_style"), std::string::npos) << "what is usual is not said";
+  World& drawn = office.world;
+  drawn.ceiling = {{{{1.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}}, 7.5}};
+  drawn.ceiling_style = {CeilingKind::periodic, 12};
+  drawn.marks = {{"charger", 5, {1.5, 2.5}, 0.4, Angle::degrees(90.0), -0.5, 0.12}};
+  drawn.solids.push_back(
+      {"can-1", SolidKind::furniture, {{1.0, 1.0}, {1.1, 1.0}, {1.0, 1.1}}, 0.0, 0.12, false, SolidForm::can});
+  const auto world = parse_world(to_yaml(drawn), "simulation.yaml");
+  ASSERT_TRUE(world) << world.error().message;
+  ASSERT_EQ(world->ceiling.size(), 1U);
+  EXPECT_DOUBLE_EQ(world->ceiling[0].height, 7.5);
+  EXPECT_EQ(world->ceiling[0].polygon, drawn.ceiling[0].polygon);
+  EXPECT_EQ(world->ceiling_style.kind, CeilingKind::periodic);
+  EXPECT_EQ(world->ceiling_style.seed, 12U);
+  ASSERT_EQ(world->marks.size(), 1U);
+  EXPECT_EQ(world->marks[0].tag, 5);
+  EXPECT_NEAR(world->marks[0].heading.degrees(), 90.0, 1e-3);
+  EXPECT_NEAR(world->marks[0].tilt, -0.5, 1e-4);
+  EXPECT_EQ(world->solids.back().form, SolidForm::can);
+}
+
 TEST_F(MuseumFolder, KeepsTheRecordedPeopleInAFileOfTheirOwn) {
   Office office = draw_office(6);
   office.world.pedestrians_file = "pedestrians.txt";

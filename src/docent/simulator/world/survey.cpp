@@ -131,6 +131,7 @@ Survey survey(const World& world, const SurveyParams& params, const Rng& rng) {
   const std::vector<Fate> fates = draw_fates(world, params, rng.stream("fates"));
   for (std::size_t i = 0; i < world.solids.size(); ++i) {
     const Solid& solid = world.solids[i];
+    if (is_litter(solid)) continue;
     // A stream of its own: a new solid does not change the others' errors.
     Rng own = rng.stream(solid.id);
     Polygon polygon = shifted(solid.polygon, any_shift(own, params.least_error, params.greatest_error));

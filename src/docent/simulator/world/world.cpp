@@ -18,10 +18,19 @@ struct NamedKind {
   const char* name;
   SolidKind kind;
   double top;  // [m], where the file says nothing
+  SolidForm form = SolidForm::prism;
 };
-constexpr std::array kKinds{NamedKind{"wall", SolidKind::wall, 3.0}, NamedKind{"furniture", SolidKind::furniture, 1.0},
-                            NamedKind{"glass", SolidKind::glass, 2.0}, NamedKind{"plate", SolidKind::plate, 0.02},
-                            NamedKind{"stairs", SolidKind::stairs, 0.0}};
+constexpr std::array kKinds{NamedKind{"wall", SolidKind::wall, 3.0},
+                            NamedKind{"furniture", SolidKind::furniture, 1.0},
+                            NamedKind{"glass", SolidKind::glass, 2.0},
+                            NamedKind{"plate", SolidKind::plate, 0.02},
+                            NamedKind{"stairs", SolidKind::stairs, 0.0},
+                            NamedKind{"can", SolidKind::furniture, 0.12, SolidForm::can},
+                            NamedKind{"wad", SolidKind::furniture, 0.06, SolidForm::wad},
+                            NamedKind{"bin", SolidKind::furniture, 0.45, SolidForm::bin}};
+constexpr std::array<std::pair<const char*, CeilingKind>, 3> kCeilings{
+    {{"various", CeilingKind::various}, {"periodic", CeilingKind::periodic}, {"plain", CeilingKind::plain}}};
+constexpr int kTags = 587;  // of the family 36h11
 
 struct PointYaml {
   double x = 0.0;
@@ -115,6 +124,38 @@ struct CeilingYaml {
   }
 };
 
+struct CeilingStyleYaml {
+  std::string kind = "various";
+  std::optional<std::uint64_t> seed;
+  template <class V>
+  void visit(V& v) {
+    v("kind", kind);
+    v("seed", seed);
+  }
+};
+
+struct MarkYaml {
+  std::string id;
+  int tag = 0;
+  double x = 0.0;
+  double y = 0.0;
+  double height = 0.0;
+  double heading = 0.0;
+  double tilt = 0.0;
+  double size = 0.16;
+  template <class V>
+  void visit(V& v) {
+    v.required("id", id);
+    v.required("tag", tag);
+    v.required("x", x);
+    v.required("y", y);
+    v.required("height", height);
+    v("heading", heading);
+    v("tilt", tilt);
+    v("size", size);
+  }
+};
+
 struct CameraYaml {
   double x = 0.0;
   double y = 0.0;
@@ -142,6 +183,8 @@ class WorldParser {
     std::vector<AttractionYaml> attractions;
     std::vector<CeilingYaml> ceiling;
     std::optional<CameraYaml> camera;
+    CeilingStyleYaml style;
+    std::vector<MarkYaml> marks;
     reader.required("floor", floor);
     reader.required("operating_area", area);
     reader.required("solids", solids);
@@ -153,6 +196,8 @@ class WorldParser {
     reader("tours", world.tours);
     reader("ceiling_height", world.ceiling_height);
     reader("ceiling", ceiling);
+    reader("ceiling_style", style);
+    reader("marks", marks);
     reader("pedestrians", world.pedestrians_file);
     reader("scene_camera", camera);
     reader.finish();
@@ -168,11 +213,9 @@ class WorldParser {
     if (!contains(world.operating_area, world.home)) throw fault(root_["home"], "home lies outside operating_area");
     if (!(world.visitors_per_hour >= 0.0)) throw fault(root_["visitors_per_hour"], "must be >= 0");
     if (!(world.ceiling_height > 0.0)) throw fault(root_["ceiling_height"], "must be > 0");
-    for (std::size_t i = 0; i < ceiling.size(); ++i) {
-      const YAML::Node node = root_["ceiling"][i];
-      if (!(ceiling[i].height > 0.0)) throw fault(node, "height must be > 0");
-      world.ceiling.push_back({polygon(node["polygon"], ceiling[i].polygon), ceiling[i].height});
-    }
+    add_ceiling(ceiling, world);
+    world.ceiling_style = {ceiling_kind(style.kind), style.seed};
+    for (std::size_t i = 0; i < marks.size(); ++i) world.marks.push_back(mark(root_["marks"][i], marks[i]));
     if (camera) {
       if (!(camera->height > 0.5 && camera->height < 50.0))
         throw fault(root_["scene_camera"], "height must be 0.5 to 50");
@@ -192,6 +235,36 @@ class WorldParser {
 
  private:
   YamlFault fault(const YAML::Node& node, const std::string& what) const { return YamlFault{file_.fault(node, what)}; }
+
+  void add_ceiling(const std::vector<CeilingYaml>& ceiling, World& world) const {
+    for (std::size_t i = 0; i < ceiling.size(); ++i) {
+      const YAML::Node node = root_["ceiling"][i];
+      if (!(ceiling[i].height > 0.0)) throw fault(node, "height must be > 0");
+      world.ceiling.push_back({polygon(node["polygon"], ceiling[i].polygon), ceiling[i].height});
+    }
+  }
+
+  CeilingKind ceiling_kind(const std::string& name) const {
+    for (const auto& [known, kind] : kCeilings)
+      if (name == known) return kind;
+    throw fault(root_["ceiling_style"], "unknown kind '" + name + "' (various, periodic, plain)");
+  }
+
+  Mark mark(const YAML::Node& node, const MarkYaml& yaml) {
+    if (!mark_ids_.insert(yaml.id).second) throw fault(node, "mark '" + yaml.id + "' stands twice");
+    if (yaml.tag < 0 || yaml.tag >= kTags) throw fault(node, "tag must be 0 to 586, of the family 36h11");
+    if (!(yaml.size > 0.0 && yaml.size < 5.0)) throw fault(node, "size must be above 0 and below 5");
+    if (!(std::abs(yaml.tilt) <= 90.0)) throw fault(node, "tilt must be -90 to 90");
+    if (std::abs(yaml.x) > kFarthest || std::abs(yaml.y) > kFarthest || !(std::abs(yaml.height) < kFarthest))
+      throw fault(node, "too far away");
+    return {yaml.id,
+            yaml.tag,
+            {yaml.x, yaml.y},
+            yaml.height,
+            Angle::degrees(yaml.heading),
+            yaml.tilt * std::numbers::pi / 180.0,
+            yaml.size};
+  }
 
   std::vector<Point2> points(const YAML::Node& node, const Corners& corners) const {
     std::vector<Point2> result;
@@ -219,9 +292,11 @@ class WorldParser {
       if (yaml.kind == candidate.name) kind = &candidate;
     }
     if (kind == nullptr) {
-      throw fault(node["kind"], "unknown kind '" + yaml.kind + "' (wall, furniture, glass, plate, stairs)");
+      throw fault(node["kind"],
+                  "unknown kind '" + yaml.kind + "' (wall, furniture, glass, plate, stairs, can, wad, bin)");
     }
     solid.kind = kind->kind;
+    solid.form = kind->form;
     solid.bottom = yaml.bottom;
     solid.top = yaml.top.value_or(kind->top);
     solid.movable = yaml.movable;
@@ -295,6 +370,7 @@ class WorldParser {
   const YAML::Node root_;  // const: operator[] of a non-const node would insert
   std::set<std::string> solid_ids_;
   std::set<std::string> attraction_ids_;
+  std::set<std::string> mark_ids_;
 };
 
 }  // namespace
@@ -311,6 +387,18 @@ const char* to_string(SolidKind kind) {
   for (const auto& named : kKinds) {
     if (named.kind == kind) return named.name;
   }
+  return "?";
+}
+
+const char* kind_name(const Solid& solid) {
+  for (const auto& named : kKinds)
+    if (named.kind == solid.kind && named.form == solid.form) return named.name;
+  return "?";
+}
+
+const char* to_string(CeilingKind kind) {
+  for (const auto& [name, known] : kCeilings)
+    if (kind == known) return name;
   return "?";
 }
 

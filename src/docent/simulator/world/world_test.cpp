@@ -63,6 +63,31 @@ solids:
   EXPECT_DOUBLE_EQ(world->solids[1].top, 9.0);
 }
 
+TEST(World, HasAStyleOfCeilingMarksAndSmallThings) {
+  const auto world = parse_world(std::string{kFrame} + R"(ceiling_style: {kind: periodic, seed: 7}
+marks: [{id: charger, tag: 3, x: 1, y: 2, height: 0.4, heading: 90, tilt: -30, size: 0.1}]
+solids:
+  - {id: can-1, kind: can, circle: {x: 3, y: 3, radius: 0.033}}
+  - {id: wad-1, kind: wad, circle: {x: 4, y: 3, radius: 0.04}}
+  - {id: bin-1, kind: bin, circle: {x: 5, y: 3, radius: 0.15}}
+)",
+                                 "w.yaml");
+  ASSERT_TRUE(world) << world.error().message;
+  EXPECT_EQ(world->ceiling_style.kind, CeilingKind::periodic);
+  EXPECT_EQ(world->ceiling_style.seed, 7U);
+  ASSERT_EQ(world->marks.size(), 1U);
+  EXPECT_EQ(world->marks[0].tag, 3);
+  EXPECT_NEAR(world->marks[0].heading.degrees(), 90.0, 1e-9);
+  EXPECT_NEAR(world->marks[0].tilt, -0.5236, 1e-4);
+  ASSERT_EQ(world->solids.size(), 3U);
+  EXPECT_EQ(world->solids[0].form, SolidForm::can);
+  EXPECT_EQ(world->solids[0].kind, SolidKind::furniture);
+  EXPECT_DOUBLE_EQ(world->solids[0].top, 0.12);
+  EXPECT_TRUE(is_litter(world->solids[1]));
+  EXPECT_FALSE(is_litter(world->solids[2]));
+  EXPECT_STREQ(kind_name(world->solids[2]), "bin");
+}
+
 TEST(World, FaultsNameFileAndLine) {
   struct Case {
     std::string text;
@@ -86,6 +111,12 @@ TEST(World, FaultsNameFileAndLine) {
       {std::string{kFrame} + "solids: []\nvisitors_per_hour: -1\n", "w.yaml:7: must be >= 0"},
       {std::string{kFrame} + "solids: []\nattractions: [{id: a, centre: {x: 1, y: 1}, radius: 0}]\n",
        "w.yaml:7: radius"},
+      {std::string{kFrame} + "solids: []\nceiling_style: {kind: gothic}\n", "w.yaml:7: unknown kind 'gothic'"},
+      {std::string{kFrame} + "solids: []\nmarks: [{id: a, tag: 587, x: 1, y: 1, height: 1}]\n", "w.yaml:7: tag must"},
+      {std::string{kFrame} + "solids: []\nmarks: [{id: a, tag: 1, x: 1, y: 1, height: 1, size: 0}]\n",
+       "w.yaml:7: size must"},
+      {std::string{kFrame} + "solids: []\nmarks: [{id: a, tag: 1, x: 1, y: 1, height: 1, tilt: 91}]\n",
+       "w.yaml:7: tilt must"},
       {kFrame, "w.yaml:2: missing key 'solids'"},
       {"floor: 3\n", "w.yaml:1: expected a list"},
       {"floor: [[0, 0], [1, 0], [1, 1]]\noperating_area: [[0, 0], [1, 0], [1, 1]]\nsolids: []\nentrances: []\n"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "docent/geometry/pose2.h"
-#include "docent/simulator/sensing/camera/mesh.h"
+#include "docent/simulator/sensing/camera/mesh/mesh.h"
 
 namespace docent::simulator {
 

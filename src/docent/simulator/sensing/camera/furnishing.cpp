@@ -7,15 +7,19 @@
 
 #include "docent/base/random.h"
 #include "docent/pictures/canvas.h"
+#include "docent/simulator/sensing/camera/ceiling/ceiling_design.h"
+#include "docent/simulator/sensing/camera/ceiling/ceiling_mesh.h"
+#include "docent/simulator/sensing/camera/mesh/level_parts.h"
+#include "docent/simulator/sensing/camera/things/litter.h"
+#include "docent/simulator/sensing/camera/things/marks.h"
+#include "docent/simulator/sensing/camera/things/stairs.h"
 
 namespace docent::simulator {
 namespace {
 
 constexpr Rgb kWall{0.74F, 0.72F, 0.67F};
 constexpr Rgb kFloor{0.42F, 0.40F, 0.37F};
-constexpr Rgb kCeiling{0.80F, 0.80F, 0.80F};
 constexpr Rgb kFrame{0.20F, 0.22F, 0.24F};
-constexpr Rgb kHole{0.02F, 0.02F, 0.025F};
 constexpr Rgb kPlate{0.45F, 0.47F, 0.50F};
 constexpr double kMargin = 3.0;  // [m] of floor and ceiling outside the outer walls
 
@@ -65,6 +69,10 @@ class Furnisher {
     for (const Solid& solid : world_.solids) add(solid);
     for (const Attraction& attraction : world_.attractions)
       if (is_exhibit(attraction.id)) add_sign(attraction);
+    for (const Mark& mark : world_.marks) {
+      add_mark(made_.mesh, mark, static_cast<std::int16_t>(made_.posters.size()));
+      made_.posters.push_back(picture_of_tag(mark.tag));
+    }
     return std::move(made_);
   }
 
@@ -81,14 +89,21 @@ class Furnisher {
     }
     low = low - Point2{kMargin, kMargin};
     high = high + Point2{kMargin, kMargin};
-    const Polygon all{low, {high.x, low.y}, high, {low.x, high.y}};
-    add_level(made_.mesh, all, 0.0, true, {kFloor, Finish::tiles});
-    add_level(made_.mesh, all, world_.ceiling_height, false, {kCeiling, Finish::ceiling});
+    std::vector<Polygon> holes;
+    for (const Solid& solid : world_.solids)
+      if (solid.kind == SolidKind::stairs) holes.push_back(solid.polygon);
+    for (const LevelParts::Piece& piece : level_parts(low, high, holes).pieces)
+      if (piece.owner < 0)
+        add_level(made_.mesh, {piece.corners.begin(), piece.corners.end()}, 0.0, true, {kFloor, Finish::tiles});
+    made_.ceiling = design_ceiling(world_);
+    made_.light = CeilingLight{made_.ceiling, low, high};
+    add_ceiling(made_.mesh, made_.ceiling, low, high);
   }
 
   void add(const Solid& solid) {
     Mesh& mesh = made_.mesh;
     const Rgb own = color_of(solid.id);
+    if (solid.form != SolidForm::prism) return add_litter(mesh, solid);
     switch (solid.kind) {
       case SolidKind::wall: {
         // Walls reach the ceiling wherever it is.
@@ -101,7 +116,7 @@ class Furnisher {
       case SolidKind::plate:
         return add_prism(mesh, solid.polygon, solid.bottom, solid.top, {kPlate}, {kPlate});
       case SolidKind::stairs:
-        return add_level(mesh, solid.polygon, 0.004, true, {kHole});
+        return add_stairs(mesh, solid, world_);
       case SolidKind::glass:
         return add_frame(solid);
     }
@@ -109,6 +124,7 @@ class Furnisher {
 
   /// What one sees of a glass case: posts at its corners, a rim above, a plinth.
   void add_frame(const Solid& solid) {
+    add_prism(made_.glass, solid.polygon, solid.bottom, solid.top, {}, {});
     constexpr double kBar = 0.02;                                                      // [m] thick
     const std::size_t step = solid.polygon.size() > 8 ? solid.polygon.size() / 8 : 1;  // few posts round a circle
     for (std::size_t i = 0; i < solid.polygon.size(); i += step)

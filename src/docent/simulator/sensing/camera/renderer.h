@@ -4,6 +4,9 @@
 
 #include "docent/pictures/image.h"
 #include "docent/simulator/sensing/camera/furnishing.h"
+#include "docent/simulator/sensing/camera/optics/raw_picture.h"
+#include "docent/simulator/sensing/camera/optics/ray_table.h"
+#include "docent/simulator/sensing/camera/optics/viewpoint.h"
 
 namespace docent::simulator {
 
@@ -31,8 +34,13 @@ class Renderer {
   void set_furnishing(Furnishing furnishing);
   /// What moves, as it is now: people and the robot. O(n log n), fast.
   void set_figures(Mesh figures);
-  /// O(pixels log(triangles)).
-  [[nodiscard]] pictures::Image draw(const Lens& lens) const;
+  /// For people to look at. O(pixels log(triangles)).
+  [[nodiscard]] pictures::Image draw(const Lens& lens, const Lighting& lighting = {}) const;
+  /// The light on the sensor of a camera. O(pixels log(triangles)).
+  [[nodiscard]] RawPicture expose(const Viewpoint& viewpoint, const RayTable& lens,
+                                  const Lighting& lighting = {}) const;
+  /// What a depth camera meets. @param baseline  [m] of its projector, to its right
+  [[nodiscard]] RawDepth probe(const Viewpoint& viewpoint, const RayTable& lens, double baseline) const;
 
  private:
   class Impl;

@@ -111,17 +111,5 @@ TEST_F(RendererTest, NamesTheExhibits) {
   EXPECT_GT(std::count(bytes.begin(), bytes.end(), 255), 2000) << "white letters";
 }
 
-TEST(Mesh, CutsAConcavePolygonIntoItsArea) {
-  Mesh mesh;
-  add_level(mesh, {{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}, {2.0, 1.0}, {0.0, 4.0}}, 0.0, true, {});
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 twice = cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]);
-    EXPECT_GT(twice.z, 0.0F);
-    area += 0.5 * static_cast<double>(twice.z);
-  }
-  EXPECT_NEAR(area, 10.0, 1e-5);
-}
-
 }  // namespace
 }  // namespace docent::simulator

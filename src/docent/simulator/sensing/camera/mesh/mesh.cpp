@@ -1,4 +1,4 @@
-#include "docent/simulator/sensing/camera/mesh.h"
+#include "docent/simulator/sensing/camera/mesh/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,6 +91,8 @@ void add_prism(Mesh& mesh, const Polygon& polygon, double bottom, double top, co
   for (const auto& [a, b] : sides(outline))
     add_quad(mesh, {lifted(a, top), lifted(a, bottom), lifted(b, bottom), lifted(b, top)}, side);
   add_level(mesh, outline, top, true, cover);
+  constexpr double kOnFloor = 0.01;  // [m]
+  if (bottom > kOnFloor) add_level(mesh, outline, bottom, false, side);
 }
 
 void add_limb(Mesh& mesh, Vec3 from, Vec3 to, double first, double last, const Look& surface, int sides) {

@@ -40,7 +40,8 @@ enum class Finish : std::uint8_t {
   plain,    ///< its colour
   tiles,    ///< a floor
   wall,     ///< with a skirting board
-  ceiling,  ///< with lamps
+  ceiling,  ///< a field of the ceiling
+  lamp,     ///< of the ceiling; its place is 0..1 along and across it
   poster,   ///< a picture
 };
 
@@ -48,7 +49,7 @@ enum class Finish : std::uint8_t {
 struct Look {
   Rgb color;
   Finish finish = Finish::plain;
-  std::int16_t poster = -1;  ///< index in the scene's posters
+  std::int16_t part = -1;  ///< index in the scene's posters, the ceiling's fields or its lamps
 };
 
 /// Triangles with a normal and a place in their poster at each corner.
@@ -66,7 +67,7 @@ struct Mesh {
 void add_quad(Mesh& mesh, const std::array<Vec3, 4>& corners, const Look& surface);
 /// A level polygon, which may be concave. O(corners^3).
 void add_level(Mesh& mesh, const Polygon& polygon, double z, bool faces_up, const Look& surface);
-/// A prism over a polygon, without its underside.
+/// A prism over a polygon; its underside only where that is higher than the floor.
 void add_prism(Mesh& mesh, const Polygon& polygon, double bottom, double top, const Look& side, const Look& cover);
 /// A round limb from `from` to `to`, thick `first` and `last` [m] at its ends, without caps.
 void add_limb(Mesh& mesh, Vec3 from, Vec3 to, double first, double last, const Look& surface, int sides = 8);
