@@ -34,6 +34,18 @@ class MosaicLevel {
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
   [[nodiscard]] double blur() const { return blur_; }
 
+  /// Of the cell at a place that is given in cells from the frame's origin; false where it is not known or of another
+  /// part.
+  [[nodiscard]] bool nearest(float column, float row, std::size_t part, float& brightness) const {
+    if (!(column >= 0.0F && row >= 0.0F && column < static_cast<float>(frame_.columns - 1) &&
+          row < static_cast<float>(frame_.rows - 1)))
+      return false;
+    const std::size_t at = static_cast<std::size_t>(static_cast<int>(row)) * static_cast<std::size_t>(frame_.columns) +
+                           static_cast<std::size_t>(static_cast<int>(column));
+    brightness = cells_[at].brightness;
+    return whole_[at] == part;
+  }
+
   /// Between cells; false where one of the four around is not known or of another part.
   [[nodiscard]] bool look(Point2 in_map, std::size_t part, Look& look) const {
     const double x = (in_map.x - frame_.origin.x) * per_metre_ - 0.5;

@@ -10,10 +10,10 @@
 namespace docent::vision {
 namespace {
 
-constexpr int kAcross = 8, kDown = 6;  // parts of a picture that have their samples each
-constexpr double kFirmly = 1e-4;       // [m, rad] of the one pose that is held without priors
-constexpr double kNearest = 0.1;       // share of a picture's reach: nearer ones tell nothing of heights
-constexpr double kFarthest = 1.3;      // share of it: farther ones hardly overlap
+constexpr int kAcross = 8, kDown = 6;     // parts of a picture that have their samples each
+constexpr double kFirmly = 1e-4;          // [m, rad] of the one pose that is held without priors
+constexpr double kNearestPartner = 0.1;   // share of a picture's reach: nearer ones tell nothing of heights
+constexpr double kFarthestPartner = 1.3;  // share of it: farther ones hardly overlap
 
 /// What all pictures of a level have in common, and the pictures.
 struct Level {
@@ -110,7 +110,7 @@ std::vector<std::vector<std::size_t>> partners_of(const std::vector<PictureUnkno
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const double away = distance(pose_of(unknowns[i]).position(), pose_of(unknowns[k]).position());
-      if (k != i && away > kNearest * reach && away < kFarthest * reach) near.emplace_back(away, k);
+      if (k != i && away > kNearestPartner * reach && away < kFarthestPartner * reach) near.emplace_back(away, k);
     }
     std::sort(near.begin(), near.end());
     const std::size_t wanted = std::min(near.size(), static_cast<std::size_t>(count));
