@@ -1,16 +1,20 @@
-"""What the robot's eyes make of pictures that nobody here took: things on photographs, beside OpenCV's classifiers; a ride under a real ceiling."""
+"""What the robot's eyes make of pictures: things on photographs, beside OpenCV's classifiers; a ride under a real ceiling; mosaics of drawn ones."""
 import os
 import re
 import subprocess
 from pathlib import Path
 
-from evaluation.tables import Verdict
+from evaluation.tables import Verdict, print_table
 
-PARTS = ["objects", "real-ceiling"]
+PARTS = ["objects", "real-ceiling", "mosaic"]
 BESIDE_OPENCV = "tests/objects_beside_opencv/docent_objects_test"
+DRAWN_CEILINGS = "tests/drawn_ceilings/docent_drawn_ceilings_test"
 REAL_CEILING = "tests/real_ceiling/docent_real_ceiling_test"
 NEAR = 0.05  # [m]
 UPDATE = 1000  # [us]
+RMS = 0.03  # [m]
+SECONDS = 60
+MEGABYTES = 1024
 
 
 def run(build, program, **environment):
@@ -51,6 +55,27 @@ def real_ceiling(build, data, options, verdict):
     verdict.want("real ceiling: no slip by a lamp", "its test", done.returncode == 0 and bool(found))
 
 
+def mosaic(build, options, verdict):
+    asked = {} if options.slice else {"DOCENT_WHOLE_HALLS": "1"}
+    if options.pictures:
+        Path(options.pictures).mkdir(parents=True, exist_ok=True)
+        asked["DOCENT_MOSAIC_FIGURE"] = str(Path(options.pictures) / "mosaic.svg")
+    done = run(build, DRAWN_CEILINGS, **asked)
+    line = re.compile(r"mosaic (\w+) ([\w-]+): rms ([\d.]+) worst ([\d.]+) m; (\d+) pictures (\d+) unknowns; "
+                      r"heights (\d+) low ([\d.]+) of ([\d.]+) high ([\d.]+) of ([\d.]+); ([\d.]+) s (\d+) MB")
+    found = [row.groups() for row in map(line.match, done.stdout.splitlines()) if row]
+    print_table(["hall", "solved", "RMS [m]", "worst [m]", "pictures", "unknowns", "parts", "low [m]", "true", "high [m]", "true", "s", "MB"], found)
+    for row in found:
+        if row[1] != "whole":
+            continue
+        verdict.want(f"mosaic of hall {row[0]}: RMS of the poses", f"{row[2]} m, {row[4]} pictures", float(row[2]) <= RMS)
+        verdict.want(f"mosaic of hall {row[0]}: one core and memory", f"{row[11]} s, {row[12]} MB", float(row[11]) <= SECONDS and int(row[12]) <= MEGABYTES)
+        others = [other for other in found if other[0] == row[0] and other[1] != "whole"]
+        if others:
+            verdict.note(f"mosaic of hall {row[0]}: RMS without", ", ".join(f"{other[1]} {other[2]} m" for other in others))
+    verdict.want("mosaics of drawn halls: poses, heights within 2 %", f"{len(found)} mosaics", done.returncode == 0 and bool(found))
+
+
 def protocol(build, root, options):
     """@param build  folder of the build"""
     verdict = Verdict()
@@ -59,5 +84,7 @@ def protocol(build, root, options):
         objects(build, data, verdict)
     if options.part in (None, "real-ceiling"):
         real_ceiling(build, data, options, verdict)
+    if options.part in (None, "mosaic"):
+        mosaic(build, options, verdict)
     verdict.print()
     return verdict

@@ -74,6 +74,18 @@ int factor_of(const CeilingMosaic& mosaic, double blur) {
 
 }  // namespace
 
+bool is_visible(const CeilingMosaic& mosaic, Point2 lens_in_map, double lens_height, Point2 in_map, std::size_t part) {
+  for (std::size_t lower = 0; lower < mosaic.heights.size(); ++lower) {
+    if (mosaic.heights[lower] >= mosaic.heights[part]) continue;
+    const double share = (mosaic.heights[lower] - lens_height) / (mosaic.heights[part] - lens_height);
+    const CellIndex through = mosaic.frame.cell_at(lens_in_map + share * (in_map - lens_in_map));
+    if (!mosaic.frame.holds(through)) continue;
+    const std::uint8_t at = mosaic.part[mosaic.frame.index(through)];
+    if (at != CeilingMosaic::kUnknown && mosaic.heights[at] <= mosaic.heights[lower]) return false;
+  }
+  return true;
+}
+
 MosaicLevel::MosaicLevel(const CeilingMosaic& mosaic, double blur)
     : MosaicLevel{coarser(mosaic, factor_of(mosaic, blur)), blur, Own{}} {}
 

@@ -18,6 +18,11 @@ struct CeilingMosaic {
   std::vector<float> brightness;   ///< [rows * columns] 0 .. 1
 };
 
+/// Whether no lower part hides a place of the ceiling from a lens. O(parts).
+/// @param lens_height  [m] above the floor
+[[nodiscard]] bool is_visible(const CeilingMosaic& mosaic, Point2 lens_in_map, double lens_height, Point2 in_map,
+                              std::size_t part);
+
 /// A mosaic that was blurred, ready to be looked up: brightness and its slopes. Its cells are as long as the blur
 /// allows.
 class MosaicLevel {

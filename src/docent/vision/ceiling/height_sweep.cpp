@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -20,10 +21,10 @@ constexpr double kNeighbour = 0.12;  // cost of a neighbour of another part, as 
 /// What the pictures show at the cells at one height: mean square of the differences from what they show together.
 std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& camera,
                                 std::span<const ShrunkPicture> pictures, std::span<const PictureUnknowns> unknowns,
-                                double height, const HeightSweepParams& params, std::size_t stride) {
+                                double height, const HeightSweepParams& params, std::size_t stride, double farthest) {
   std::vector<float> sums(cells.size()), squares(cells.size()), counts(cells.size());
   const double above = height - camera.mount.position.z();
-  const double reach = std::min(params.farthest, params.steepest * above);
+  const double reach = std::min(farthest, params.steepest * above);
   for (std::size_t n = 0; n < pictures.size(); n += stride) {
     const auto& unknown = unknowns[n];
     const Pose2 map_from_robot{unknown.pose[0], unknown.pose[1], Angle::radians(unknown.pose[2])};
@@ -219,11 +220,27 @@ Result<void> HeightSweepParams::validate() const {
   if (!(least > 0.0 && most > least)) return fail("height_sweep.least must be > 0, and height_sweep.most above it");
   if (!(step > 0.0 && same > 0.0)) return fail("height_sweep.step and height_sweep.same must be > 0");
   if (!(texture > 0.0)) return fail("height_sweep.texture must be > 0");
-  if (!(cell > 0.0 && window > 0.0 && smallest > 0.0 && steepest > 0.0 && farthest > 0.0))
-    return fail("height_sweep.cell, window, smallest, steepest and farthest must be > 0");
+  if (!(cell > 0.0 && window > 0.0 && smallest > 0.0 && steepest > 0.0 && farthest > 0.0 && looks > 0.0))
+    return fail("height_sweep.cell, window, smallest, steepest, farthest and looks must be > 0");
   if (pictures == 0) return fail("height_sweep.pictures must be > 0");
   return {};
 }
+
+namespace {
+
+/// [m] So far that the average cell is in params.looks pictures.
+double farthest_of(std::span<const PictureUnknowns> unknowns, std::size_t stride, const HeightSweepParams& params) {
+  double left = unknowns[0].pose[0], right = left, low = unknowns[0].pose[1], high = low;
+  for (const PictureUnknowns& unknown : unknowns) {
+    left = std::min(left, unknown.pose[0]), right = std::max(right, unknown.pose[0]);
+    low = std::min(low, unknown.pose[1]), high = std::max(high, unknown.pose[1]);
+  }
+  const double area = std::max(1.0, (right - left) * (high - low));
+  const double pictures = static_cast<double>(unknowns.size()) / static_cast<double>(stride);
+  return std::max(params.farthest, std::sqrt(params.looks * area / (std::numbers::pi * pictures)));
+}
+
+}  // namespace
 
 CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
                             std::span<const ShrunkPicture> pictures, std::span<const PictureUnknowns> unknowns,
@@ -233,6 +250,7 @@ CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
   cells.columns = std::max(1, static_cast<int>(std::ceil(frame.columns * frame.resolution / params.cell)));
   cells.rows = std::max(1, static_cast<int>(std::ceil(frame.rows * frame.resolution / params.cell)));
   const std::size_t stride = (pictures.size() + params.pictures - 1) / params.pictures;
+  const double farthest = farthest_of(unknowns, stride, params);
   std::vector<double> heights;
   for (double height = std::max(params.least, camera.mount.position.z() + 0.3); height <= params.most;
        height *= 1.0 + params.step)
@@ -240,13 +258,15 @@ CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
   std::vector<std::vector<float>> costs;
   const int reach = std::max(1, static_cast<int>(std::lround(0.5 * params.window / params.cell)));
   for (const double height : heights)
-    costs.push_back(smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride), reach));
+    costs.push_back(
+        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), reach));
   CeilingMosaic mosaic{frame, heights_of_parts(cells, costs, heights, params), {}, {}};
   mosaic.part.assign(frame.size(), CeilingMosaic::kUnknown);
   mosaic.brightness.assign(frame.size(), 0.0F);
   costs.clear();
   for (const double height : mosaic.heights)
-    costs.push_back(smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride), 1));
+    costs.push_back(
+        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), 1));
   if (costs.empty()) return mosaic;
   const std::vector<std::uint8_t> part = parts_of(cells, costs);
   for (int row = 0; row < frame.rows; ++row)

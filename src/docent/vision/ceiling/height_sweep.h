@@ -20,9 +20,10 @@ struct HeightSweepParams {
   double texture = 0.008;  ///< of 0 .. 1: pictures of a cell that differ by less at wrong heights tell nothing, > 0
   double steepest = 1.0;   ///< slope of the farthest looks, > 0
   double same = 0.08;      ///< heights that differ by less, as a share, are one part, > 0
-  double farthest =
-      1.6;  ///< [m] along the floor of the farthest looks, > 0: from farther aside, lower parts hide higher ones
-  std::size_t pictures = 300;  ///< at most so many, spread over all, > 0
+  double farthest = 1.6;   ///< [m] along the floor of the farthest looks, > 0: from farther aside, lower parts hide
+                           ///< higher ones; more where a cell would lie in fewer than
+  double looks = 10.0;     ///< pictures, on the average, > 0
+  std::size_t pictures = 2000;  ///< at most so many, spread over all, > 0
   [[nodiscard]] Result<void> validate() const;
 };
 

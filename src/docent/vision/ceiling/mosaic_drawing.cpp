@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace docent::vision {
 namespace {
@@ -15,6 +16,18 @@ double covered(double lo, double hi, double step, double length) {
                     1.0);
 }
 
+/// Of 0 .. 1; nothing outside.
+std::optional<double> between_pixels(const GrayPicture& picture, const Eigen::Vector2d& at) {
+  if (!(at.x() >= 0.0 && at.y() >= 0.0 && at.x() < picture.columns - 1.0 && at.y() < picture.rows - 1.0))
+    return std::nullopt;
+  const auto x = static_cast<std::size_t>(at.x()), y = static_cast<std::size_t>(at.y());
+  const double u = at.x() - static_cast<double>(x), v = at.y() - static_cast<double>(y);
+  const auto width = static_cast<std::size_t>(picture.columns);
+  const std::uint8_t* pixel = picture.bytes.data() + y * width + x;
+  return ((1.0 - v) * ((1.0 - u) * pixel[0] + u * pixel[1]) + v * ((1.0 - u) * pixel[width] + u * pixel[width + 1])) /
+         255.0;
+}
+
 }  // namespace
 
 MosaicDrawing::MosaicDrawing(CeilingMosaic mosaic, const CeilingCamera& camera, double steepest)
@@ -25,36 +38,30 @@ MosaicDrawing::MosaicDrawing(CeilingMosaic mosaic, const CeilingCamera& camera, 
       weights_(parts_.frame.size()) {}
 
 void MosaicDrawing::add(const PlacedPicture& placed) {
+  for (std::size_t part = 0; part < parts_.heights.size(); ++part) add_part(placed, part);
+}
+
+void MosaicDrawing::add_part(const PlacedPicture& placed, std::size_t part) {
   const GridFrame& frame = parts_.frame;
   const Pose2 robot_from_map = inverse(placed.map_from_robot);
-  const Point2 lens_in_map = placed.map_from_robot * Point2{camera_.mount.position.x(), camera_.mount.position.y()};
-  double highest = 0.0;
-  for (const double height : parts_.heights) highest = std::max(highest, height - camera_.mount.position.z());
-  const double reach = steepest_ * highest;
-  const CellIndex first = frame.cell_at(lens_in_map - Point2{reach, reach});
-  const CellIndex last = frame.cell_at(lens_in_map + Point2{reach, reach});
-  const auto width = static_cast<std::size_t>(placed.picture.columns);
+  const Point2 lens = placed.map_from_robot * Point2{camera_.mount.position.x(), camera_.mount.position.y()};
+  const double height = parts_.heights[part], above = height - camera_.mount.position.z();
+  const double reach = steepest_ * above;
+  const CellIndex first = frame.cell_at(lens - Point2{reach, reach}), last = frame.cell_at(lens + Point2{reach, reach});
   for (int row = std::max(0, first.row); row <= std::min(frame.rows - 1, last.row); ++row) {
     for (int column = std::max(0, first.column); column <= std::min(frame.columns - 1, last.column); ++column) {
       const std::size_t cell = frame.index({column, row});
-      const std::uint8_t part = parts_.part[cell];
-      if (part == CeilingMosaic::kUnknown) continue;
-      const Point2 centre = frame.centre({column, row});
-      const double above = parts_.heights[part] - camera_.mount.position.z();
-      const double slope = distance(centre, lens_in_map) / above;
-      if (slope > steepest_) continue;
-      const auto pixel = camera_.pixel_of(robot_from_map * centre, parts_.heights[part]);
-      if (!pixel || !(pixel->x() >= 0.0 && pixel->y() >= 0.0 && pixel->x() < placed.picture.columns - 1.0 &&
-                      pixel->y() < placed.picture.rows - 1.0))
+      if (parts_.part[cell] != part) continue;
+      const Point2 centre = frame.centre({column, row}), away = centre - lens;
+      if (dot(away, away) > reach * reach || !is_visible(parts_, lens, camera_.mount.position.z(), centre, part))
         continue;
-      const auto x = static_cast<std::size_t>(pixel->x()), y = static_cast<std::size_t>(pixel->y());
-      const double u = pixel->x() - static_cast<double>(x), v = pixel->y() - static_cast<double>(y);
-      const std::uint8_t* at = placed.picture.bytes.data() + y * width + x;
-      const double value =
-          ((1.0 - v) * ((1.0 - u) * at[0] + u * at[1]) + v * ((1.0 - u) * at[width] + u * at[width + 1])) / 255.0;
+      const auto pixel = camera_.pixel_of(robot_from_map * centre, height);
+      const auto value = pixel ? between_pixels(placed.picture, *pixel) : std::nullopt;
+      if (!value) continue;
       // A pixel that looks at a slope s sees (1 + s^2)^(3/2) times the area, and so less of a cell.
-      const double weight = std::pow(1.0 + slope * slope, -1.5);
-      sums_[cell] += static_cast<float>(weight * (value - placed.offset) / placed.gain);
+      const double longer = 1.0 + dot(away, away) / (above * above);
+      const double weight = 1.0 / (longer * std::sqrt(longer));
+      sums_[cell] += static_cast<float>(weight * (*value - placed.offset) / placed.gain);
       weights_[cell] += static_cast<float>(weight);
     }
   }

@@ -27,6 +27,8 @@ class MosaicDrawing {
   [[nodiscard]] CeilingMosaic mosaic() const;
 
  private:
+  void add_part(const PlacedPicture& placed, std::size_t part);
+
   CeilingMosaic parts_;
   CeilingCamera camera_;
   double steepest_;

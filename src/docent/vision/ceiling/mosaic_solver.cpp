@@ -139,6 +139,21 @@ std::vector<PartSample> with_parts(const std::vector<CeilingSample>& looks, cons
   return samples;
 }
 
+/// Those that no lower part hides from the other picture.
+std::vector<PartSample> seen_by(const std::vector<PartSample>& samples, const CeilingMosaic& mosaic,
+                                const CeilingCamera& camera, const Pose2& map_from_robot, const Pose2& map_from_other) {
+  const Eigen::Vector3d& lens = camera.mount.position;
+  const Point2 other_lens = map_from_other * Point2{lens.x(), lens.y()};
+  std::vector<PartSample> seen;
+  for (const PartSample& sample : samples) {
+    const double above = mosaic.heights[sample.part] - lens.z();
+    const Point2 at = map_from_robot * Point2{lens.x() + above * static_cast<double>(sample.look.slope_x),
+                                              lens.y() + above * static_cast<double>(sample.look.slope_y)};
+    if (is_visible(mosaic, other_lens, lens.z(), at, sample.part)) seen.push_back(sample);
+  }
+  return seen;
+}
+
 void hold(ceres::Problem& problem, std::span<const double> errors, std::span<const double> at, double* block) {
   const auto size = static_cast<Eigen::Index>(errors.size());
   ceres::Matrix weights = ceres::Matrix::Zero(size, size);
@@ -164,10 +179,13 @@ void solve_level(const CeilingCamera& camera, const Level& level, std::span<cons
     for (const PartSample& sample : samples)
       if (std::find(parts.begin(), parts.end(), sample.part) == parts.end()) parts.push_back(sample.part);
     for (const std::size_t k : partners[i]) {
+      const std::vector<PartSample> common =
+          seen_by(samples, mosaic, camera, pose_of(unknowns[i]), pose_of(unknowns[k]));
+      if (common.empty()) continue;
       std::vector<double*> blocks{unknowns[i].pose.data(), unknowns[i].light.data(), unknowns[k].pose.data(),
                                   unknowns[k].light.data()};
       for (const std::uint8_t part : parts) blocks.push_back(&mosaic.heights[part]);
-      problem.AddResidualBlock(new MosaicPair{camera, samples, parts, level.pictures[k], params.pair}, nullptr, blocks);
+      problem.AddResidualBlock(new MosaicPair{camera, common, parts, level.pictures[k], params.pair}, nullptr, blocks);
     }
   }
   const std::array<double, 3> pose_errors{params.position_error, params.position_error, params.heading_error};

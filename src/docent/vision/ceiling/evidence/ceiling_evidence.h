@@ -24,7 +24,7 @@ struct CeilingEvidenceParams {
       0.02;  ///< of 0 .. 1, standard deviation of a picture's brightness from which it says anything, > 0
   double least_share = 0.3;  ///< of the samples that must lie on the mosaic for a pose to be judged by them, 0 .. 1;
                              ///< vertical faces are no part of it
-  double oldest = 0.5;   ///< [s] of a picture, > 0
+  double oldest = 0.5;       ///< [s] of a picture, > 0
   double motion = 0.10;  ///< [m] that the robot has to move for a further picture to be news, >= 0: one that is taken
                          ///< at the same place errs like the last one
   double turn = 10.0;    ///< [deg] likewise, >= 0
