@@ -54,7 +54,7 @@ double weight_of(const CeilingSample& sample, double far_weight) {
   return std::pow(1.0 + slope2, -far_weight);
 }
 
-struct Sums {
+struct LookSums {
   double weight = 0.0, picture = 0.0, mosaic = 0.0, pictures2 = 0.0, mosaics2 = 0.0, both = 0.0;
   int samples = 0;
   void add(double w, double in_picture, double in_mosaic) {
@@ -71,8 +71,8 @@ struct Sums {
   }
 };
 
-Sums sums_at(const Looks& looks, std::span<const CeilingSample> samples, double far_weight) {
-  Sums sums;
+LookSums sums_at(const Looks& looks, std::span<const CeilingSample> samples, double far_weight) {
+  LookSums sums;
   Point2 at;
   MosaicLevel::Look seen;
   for (const CeilingSample& sample : samples)
@@ -145,7 +145,7 @@ Result<void> PoseFitParams::validate() const {
 
 Agreement agreement_at(const Pose2& map_from_robot, const MosaicLevel& level, const CameraMount& mount,
                        std::span<const CeilingSample> samples, double far_weight) {
-  const Sums sums = sums_at(Looks{level, mount, map_from_robot}, samples, far_weight);
+  const LookSums sums = sums_at(Looks{level, mount, map_from_robot}, samples, far_weight);
   if (sums.samples == 0) return {};
   return {sums.correlation(), sums.samples, std::sqrt(std::max(0.0, sums.mosaic_variance()))};
 }
@@ -160,7 +160,7 @@ std::optional<PoseFit> fit_pose(const Pose2& start, const MosaicPyramid& levels,
   Matrix5 information = Matrix5::Identity();
   double variance = 0.0;
   for (const MosaicLevel& level : levels) {
-    const Sums sums = sums_at(Looks{level, mount, fit.map_from_robot}, samples, params.far_weight);
+    const LookSums sums = sums_at(Looks{level, mount, fit.map_from_robot}, samples, params.far_weight);
     if (sums.samples < least || sums.mosaic_variance() < kPlain || sums.picture_variance() < kPlain)
       return std::nullopt;
     fit.gain = std::max(params.least_contrast, sums.covariance() / sums.mosaic_variance());
@@ -183,7 +183,7 @@ std::optional<PoseFit> fit_pose(const Pose2& start, const MosaicPyramid& levels,
       if (farthest < params.close_enough) break;
     }
   }
-  const Sums last = sums_at(Looks{levels.back(), mount, fit.map_from_robot}, samples, params.far_weight);
+  const LookSums last = sums_at(Looks{levels.back(), mount, fit.map_from_robot}, samples, params.far_weight);
   if (last.samples < least) return std::nullopt;
   fit.correlation = last.correlation();
   fit.samples = last.samples;
