@@ -33,6 +33,7 @@ struct Hall {
   Point2 size{2.5, 2.0};    ///< [m]
   double period = 0.0;      ///< [m] after which the ceiling repeats itself, 0: never
   bool is_plain = false;
+  bool lamps_are_lit = true;
 
   [[nodiscard]] bool is_high(Point2 at) const {
     return at.x > corner.x && at.y > corner.y && at.x < corner.x + size.x && at.y < corner.y + size.y;
@@ -43,7 +44,7 @@ struct Hall {
     if (period > 0.0) at = {at.x - period * std::floor(at.x / period), at.y - period * std::floor(at.y / period)};
     const double patches = smooth(at, 0.35, 1) * 0.35 + smooth(at, 1.1, 2) * 0.25;
     const double lamp = smooth(at, 0.9, 3);
-    return 0.15 + patches + (lamp > 0.72 ? std::min(0.3, 4.0 * (lamp - 0.72)) : 0.0);
+    return 0.15 + patches + (lamps_are_lit && lamp > 0.72 ? std::min(0.3, 4.0 * (lamp - 0.72)) : 0.0);
   }
   [[nodiscard]] DrawnPicture picture(const CeilingCamera& camera, const Pose2& map_from_robot, const Light& light,
                                      Rng& rng) const {

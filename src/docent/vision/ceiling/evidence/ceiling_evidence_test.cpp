@@ -135,6 +135,22 @@ TEST(CeilingEvidence, IsNotSureWhereTheCeilingRepeatsItself) {
   EXPECT_NEAR(evidence.correlation(truth).value(), evidence.correlation({3.03, 4.02, truth.theta}).value(), 0.02);
 }
 
+TEST(CeilingEvidence, IsNotSureAndWrongWhenTheLampsAreOff) {
+  const CeilingCamera eye = camera();
+  const std::vector<Pose2> poses = all_poses();
+  Rng rng{9};
+  for (std::uint64_t seed = 61; seed < 67; ++seed) {
+    Hall hall{.seed = seed};
+    CeilingEvidence evidence{mosaic_of_hall(hall), eye};
+    hall.lamps_are_lit = false;
+    const Pose2 truth = any_place(rng);
+    const auto picture = hall.picture(eye, truth, {.gain = 0.5, .noise = 0.02}, rng);
+    const Seen seen = look(evidence, picture.view(), poses);
+    if (!seen.said) continue;
+    EXPECT_TRUE(seen.most < 0.9 || distance(seen.best.position(), truth.position()) < 0.5) << seed;
+  }
+}
+
 TEST(CeilingEvidence, PictureOfAnotherCeilingIsNotBelieved) {
   const CeilingCamera eye = camera();
   const std::vector<Pose2> poses = all_poses();
