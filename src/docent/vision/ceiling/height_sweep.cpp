@@ -1,0 +1,280 @@
+#include "docent/vision/ceiling/height_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace docent::vision {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+constexpr float kLeastPictures = 4.0F;  // that see a cell
+constexpr int kRounds = 8;              // in which cells listen to their neighbours
+constexpr double kLeastGain = 0.25;     // by which the best height must lie below the middle one, to be believed
+constexpr float kFarBetter = 0.65F;  // share of another's disagreement from which a height explains a cell far better
+constexpr std::size_t kMostParts = 16;
+constexpr double kNeighbour = 0.12;  // cost of a neighbour of another part, as a share of the variances' middle
+
+/// What the pictures show at the cells at one height: mean square of the differences from what they show together.
+std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& camera,
+                                std::span<const ShrunkPicture> pictures, std::span<const PictureUnknowns> unknowns,
+                                double height, const HeightSweepParams& params, std::size_t stride, double farthest) {
+  std::vector<float> sums(cells.size()), squares(cells.size()), counts(cells.size());
+  const double above = height - camera.mount.position.z();
+  const double reach = std::min(farthest, params.steepest * above);
+  for (std::size_t n = 0; n < pictures.size(); n += stride) {
+    const auto& unknown = unknowns[n];
+    const Pose2 map_from_robot{unknown.pose[0], unknown.pose[1], Angle::radians(unknown.pose[2])};
+    const Pose2 robot_from_map = inverse(map_from_robot);
+    const Point2 lens = map_from_robot * Point2{camera.mount.position.x(), camera.mount.position.y()};
+    const double darker = std::exp(-unknown.light[0]);
+    const CellIndex low = cells.cell_at(lens - Point2{reach, reach}), high = cells.cell_at(lens + Point2{reach, reach});
+    for (int row = std::max(0, low.row); row <= std::min(cells.rows - 1, high.row); ++row) {
+      for (int column = std::max(0, low.column); column <= std::min(cells.columns - 1, high.column); ++column) {
+        const Point2 centre = cells.centre({column, row});
+        if (distance(centre, lens) > reach) continue;
+        const auto pixel = camera.pixel_of(robot_from_map * centre, height);
+        ShrunkPicture::Value value;
+        if (!pixel || !pictures[n].look(pixel->x(), pixel->y(), value)) continue;
+        const auto shown = static_cast<float>((value.brightness - unknown.light[1]) * darker);
+        const std::size_t cell = cells.index({column, row});
+        sums[cell] += shown, squares[cell] += shown * shown, counts[cell] += 1.0F;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const float mean = sums[i] / std::max(1.0F, counts[i]);
+    // Unbiased: heights that fewer pictures see would look better.
+    squares[i] = counts[i] >= kLeastPictures
+                     ? std::max(0.0F, (squares[i] - counts[i] * mean * mean) / (counts[i] - 1.0F))
+                     : kNone;
+  }
+  return squares;
+}
+
+/// Mean over a square window of what is known.
+std::vector<float> smoothed(const GridFrame& cells, const std::vector<float>& values, int reach) {
+  const auto columns = static_cast<std::size_t>(cells.columns), rows = static_cast<std::size_t>(cells.rows);
+  // Summed areas, of values and of how many are known.
+  std::vector<double> sums((columns + 1) * (rows + 1)), counts((columns + 1) * (rows + 1));
+  const auto at = [&](std::size_t column, std::size_t row) { return row * (columns + 1) + column; };
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const float value = values[row * columns + column];
+      const bool known = value != kNone;
+      sums[at(column + 1, row + 1)] = sums[at(column, row + 1)] + sums[at(column + 1, row)] - sums[at(column, row)] +
+                                      (known ? static_cast<double>(value) : 0.0);
+      counts[at(column + 1, row + 1)] =
+          counts[at(column, row + 1)] + counts[at(column + 1, row)] - counts[at(column, row)] + (known ? 1.0 : 0.0);
+    }
+  std::vector<float> means(values.size(), kNone);
+  const auto far = static_cast<std::size_t>(reach);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t left = column > far ? column - far : 0, right = std::min(columns, column + far + 1);
+      const std::size_t low = row > far ? row - far : 0, high = std::min(rows, row + far + 1);
+      const auto area = [&](const std::vector<double>& of) {
+        return of[at(right, high)] - of[at(left, high)] - of[at(right, low)] + of[at(left, low)];
+      };
+      const double count = area(counts);
+      if (count > 0.5 && values[row * columns + column] != kNone)
+        means[row * columns + column] = static_cast<float>(area(sums) / count);
+    }
+  return means;
+}
+
+/// The height that most cells choose that have texture; nothing where none has.
+std::optional<std::size_t> main_height(const std::vector<std::vector<float>>& costs, const std::vector<double>& heights,
+                                       const HeightSweepParams& params) {
+  std::vector<double> support(heights.size());
+  for (std::size_t cell = 0; cell < costs.front().size(); ++cell) {
+    std::vector<float> known;
+    std::size_t best = 0;
+    float least = kNone;
+    for (std::size_t h = 0; h < heights.size(); ++h) {
+      const float cost = costs[h][cell];
+      if (cost == kNone) continue;
+      known.push_back(cost);
+      if (cost < least) least = cost, best = h;
+    }
+    if (known.size() < 3) continue;
+    std::nth_element(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2), known.end());
+    const auto middle = static_cast<double>(known[known.size() / 2]);
+    if (static_cast<double>(least) < (1.0 - kLeastGain) * middle &&
+        middle - static_cast<double>(least) > params.texture * params.texture)
+      support[best] += params.cell * params.cell;
+  }
+  std::optional<std::size_t> found;
+  double most = params.smallest;
+  for (std::size_t h = 0; h < heights.size(); ++h) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      if (std::abs(std::log(heights[h] / heights[k])) < 0.5 * params.same) sum += support[k];
+    if (sum > most) most = sum, found = h;
+  }
+  return found;
+}
+
+/// The largest connected set of marked cells. @returns how many, and their gain
+std::pair<std::size_t, double> largest_patch(const GridFrame& cells, const std::vector<float>& gains) {
+  std::vector<bool> seen(gains.size());
+  std::vector<std::size_t> open;
+  std::pair<std::size_t, double> largest{};
+  for (std::size_t start = 0; start < gains.size(); ++start) {
+    if (seen[start] || gains[start] <= 0.0F) continue;
+    std::pair<std::size_t, double> patch{};
+    open.assign(1, start);
+    seen[start] = true;
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      ++patch.first;
+      patch.second += static_cast<double>(gains[at]);
+      const CellIndex cell{static_cast<int>(at % static_cast<std::size_t>(cells.columns)),
+                           static_cast<int>(at / static_cast<std::size_t>(cells.columns))};
+      for (const CellIndex step : {CellIndex{1, 0}, CellIndex{-1, 0}, CellIndex{0, 1}, CellIndex{0, -1}}) {
+        const CellIndex beside{cell.column + step.column, cell.row + step.row};
+        if (!cells.holds(beside)) continue;
+        const std::size_t next = cells.index(beside);
+        if (seen[next] || gains[next] <= 0.0F) continue;
+        seen[next] = true;
+        open.push_back(next);
+      }
+    }
+    if (patch.first > largest.first) largest = patch;
+  }
+  return largest;
+}
+
+/// Heights of parts in ascending order: the main one, then each that explains a patch of cells far better than those
+/// before.
+std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<std::vector<float>>& costs,
+                                     const std::vector<double>& heights, const HeightSweepParams& params) {
+  const auto main = main_height(costs, heights, params);
+  if (!main) return {};
+  std::vector<double> found{heights[*main]};
+  std::vector<float> best = costs[*main], gains(best.size());
+  const auto texture = static_cast<float>(params.texture * params.texture);
+  while (found.size() < kMostParts) {
+    std::size_t next = 0;
+    double most = 0.0;
+    for (std::size_t h = 0; h < heights.size(); ++h) {
+      const auto same = [&](double other) { return std::abs(std::log(heights[h] / other)) < params.same; };
+      if (std::any_of(found.begin(), found.end(), same)) continue;
+      for (std::size_t i = 0; i < gains.size(); ++i) {
+        const float gain = best[i] == kNone || costs[h][i] == kNone ? 0.0F : best[i] - costs[h][i];
+        gains[i] = gain > texture && costs[h][i] < kFarBetter * best[i] ? gain : 0.0F;
+      }
+      const auto [count, gain] = largest_patch(cells, gains);
+      if (static_cast<double>(count) * params.cell * params.cell >= params.smallest && gain > most)
+        most = gain, next = h;
+    }
+    if (most == 0.0) break;
+    found.push_back(heights[next]);
+    for (std::size_t i = 0; i < best.size(); ++i)
+      if (best[i] != kNone) best[i] = std::min(best[i], costs[next][i]);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Each cell's part: what its own cost and its neighbours say (iterated conditional modes).
+std::vector<std::uint8_t> parts_of(const GridFrame& cells, const std::vector<std::vector<float>>& costs) {
+  std::vector<std::uint8_t> part(cells.size(), CeilingMosaic::kUnknown);
+  std::vector<float> all;
+  for (const auto& of_part : costs)
+    for (const float cost : of_part)
+      if (cost != kNone) all.push_back(cost);
+  if (all.empty()) return part;
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  const double neighbour = kNeighbour * static_cast<double>(all[all.size() / 2]);
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<std::uint8_t> last = part;
+    for (int row = 0; row < cells.rows; ++row)
+      for (int column = 0; column < cells.columns; ++column) {
+        double least = std::numeric_limits<double>::infinity();
+        const std::size_t cell = cells.index({column, row});
+        for (std::size_t p = 0; p < costs.size(); ++p) {
+          if (costs[p][cell] == kNone) continue;
+          double cost = static_cast<double>(costs[p][cell]);
+          for (int v = -1; v <= 1; ++v)
+            for (int u = -1; u <= 1; ++u) {
+              const CellIndex beside{column + u, row + v};
+              if (!cells.holds(beside)) continue;
+              const std::uint8_t other = last[cells.index(beside)];
+              if (other != CeilingMosaic::kUnknown && other != p) cost += neighbour;
+            }
+          if (cost < least) least = cost, part[cell] = static_cast<std::uint8_t>(p);
+        }
+      }
+  }
+  return part;
+}
+
+}  // namespace
+
+Result<void> HeightSweepParams::validate() const {
+  if (!(least > 0.0 && most > least)) return fail("height_sweep.least must be > 0, and height_sweep.most above it");
+  if (!(step > 0.0 && same > 0.0)) return fail("height_sweep.step and height_sweep.same must be > 0");
+  if (!(texture > 0.0)) return fail("height_sweep.texture must be > 0");
+  if (!(cell > 0.0 && window > 0.0 && smallest > 0.0 && steepest > 0.0 && farthest > 0.0 && looks > 0.0))
+    return fail("height_sweep.cell, window, smallest, steepest, farthest and looks must be > 0");
+  if (pictures == 0) return fail("height_sweep.pictures must be > 0");
+  return {};
+}
+
+namespace {
+
+/// [m] So far that the average cell is in params.looks pictures.
+double farthest_of(std::span<const PictureUnknowns> unknowns, std::size_t stride, const HeightSweepParams& params) {
+  double left = unknowns[0].pose[0], right = left, low = unknowns[0].pose[1], high = low;
+  for (const PictureUnknowns& unknown : unknowns) {
+    left = std::min(left, unknown.pose[0]), right = std::max(right, unknown.pose[0]);
+    low = std::min(low, unknown.pose[1]), high = std::max(high, unknown.pose[1]);
+  }
+  const double area = std::max(1.0, (right - left) * (high - low));
+  const double pictures = static_cast<double>(unknowns.size()) / static_cast<double>(stride);
+  return std::max(params.farthest, std::sqrt(params.looks * area / (std::numbers::pi * pictures)));
+}
+
+}  // namespace
+
+CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
+                            std::span<const ShrunkPicture> pictures, std::span<const PictureUnknowns> unknowns,
+                            const HeightSweepParams& params) {
+  GridFrame cells = frame;
+  cells.resolution = params.cell;
+  cells.columns = std::max(1, static_cast<int>(std::ceil(frame.columns * frame.resolution / params.cell)));
+  cells.rows = std::max(1, static_cast<int>(std::ceil(frame.rows * frame.resolution / params.cell)));
+  const std::size_t stride = (pictures.size() + params.pictures - 1) / params.pictures;
+  const double farthest = farthest_of(unknowns, stride, params);
+  std::vector<double> heights;
+  for (double height = std::max(params.least, camera.mount.position.z() + 0.3); height <= params.most;
+       height *= 1.0 + params.step)
+    heights.push_back(height);
+  std::vector<std::vector<float>> costs;
+  const int reach = std::max(1, static_cast<int>(std::lround(0.5 * params.window / params.cell)));
+  for (const double height : heights)
+    costs.push_back(
+        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), reach));
+  CeilingMosaic mosaic{frame, heights_of_parts(cells, costs, heights, params), {}, {}};
+  mosaic.part.assign(frame.size(), CeilingMosaic::kUnknown);
+  mosaic.brightness.assign(frame.size(), 0.0F);
+  costs.clear();
+  for (const double height : mosaic.heights)
+    costs.push_back(
+        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), 1));
+  if (costs.empty()) return mosaic;
+  const std::vector<std::uint8_t> part = parts_of(cells, costs);
+  for (int row = 0; row < frame.rows; ++row)
+    for (int column = 0; column < frame.columns; ++column) {
+      const CellIndex coarse = cells.cell_at(frame.centre({column, row}));
+      if (cells.holds(coarse)) mosaic.part[frame.index({column, row})] = part[cells.index(coarse)];
+    }
+  return mosaic;
+}
+
+}  // namespace docent::vision

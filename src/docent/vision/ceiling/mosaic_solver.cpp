@@ -1,0 +1,307 @@
+#include "docent/vision/ceiling/mosaic_solver.h"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace docent::vision {
+namespace {
+
+constexpr int kAcross = 8, kDown = 6;     // parts of a picture that have their samples each
+constexpr double kFirmly = 1e-4;          // [m, rad] of the one pose that is held without priors
+constexpr double kNearestPartner = 0.1;   // share of a picture's reach: nearer ones tell nothing of heights
+constexpr double kFarthestPartner = 1.3;  // share of it: farther ones hardly overlap
+
+/// What all pictures of a level have in common, and the pictures.
+struct Level {
+  std::vector<ShrunkPicture> pictures;
+  std::vector<std::vector<CeilingSample>> looks;  ///< of each picture
+};
+
+struct BlockRay {
+  int column = 0, row = 0;
+  float slope_x = 0.0F, slope_y = 0.0F;
+};
+
+std::vector<BlockRay> rays_of(const CeilingCamera& camera, const ShrunkPicture& picture, double steepest) {
+  std::vector<BlockRay> rays;
+  for (int row = 1; row + 1 < picture.rows(); ++row) {
+    for (int column = 1; column + 1 < picture.columns(); ++column) {
+      const auto ray = camera.lens.ray_of({picture.middle(column), picture.middle(row)});
+      if (!ray) continue;
+      const Eigen::Vector3d up = camera.mount.robot_from_camera * *ray;
+      if (up.z() <= 0.0 || std::hypot(up.x(), up.y()) > steepest * up.z()) continue;
+      rays.push_back({column, row, static_cast<float>(up.x() / up.z()), static_cast<float>(up.y() / up.z())});
+    }
+  }
+  return rays;
+}
+
+/// Where the picture changes most, in each of kAcross x kDown parts of it.
+std::vector<CeilingSample> looks_of(const ShrunkPicture& picture, const std::vector<BlockRay>& rays, int samples) {
+  struct Rated {
+    float change = 0.0F;
+    const BlockRay* ray = nullptr;
+  };
+  std::vector<std::vector<Rated>> fields(static_cast<std::size_t>(kAcross * kDown));
+  for (const BlockRay& ray : rays) {
+    const float x = picture.at(ray.column + 1, ray.row) - picture.at(ray.column - 1, ray.row);
+    const float y = picture.at(ray.column, ray.row + 1) - picture.at(ray.column, ray.row - 1);
+    const int field = ray.row * kDown / picture.rows() * kAcross + ray.column * kAcross / picture.columns();
+    fields[static_cast<std::size_t>(field)].push_back({x * x + y * y, &ray});
+  }
+  const auto each = static_cast<std::size_t>(std::max(1, samples / (kAcross * kDown)));
+  std::vector<CeilingSample> looks;
+  for (auto& field : fields) {
+    const std::size_t count = std::min(each, field.size());
+    std::stable_sort(field.begin(), field.end(), [](const Rated& a, const Rated& b) { return a.change > b.change; });
+    for (std::size_t i = 0; i < count; ++i) {
+      const BlockRay& ray = *field[i].ray;
+      looks.push_back({ray.slope_x, ray.slope_y, picture.at(ray.column, ray.row)});
+    }
+  }
+  return looks;
+}
+
+Level level_of(const CeilingCamera& camera, std::span<const PlacedPicture> pictures, int block,
+               const MosaicSolverParams& params) {
+  Level level;
+  for (const PlacedPicture& placed : pictures) level.pictures.emplace_back(placed.picture, block);
+  const std::vector<BlockRay> rays = rays_of(camera, level.pictures.front(), params.steepest);
+  for (const ShrunkPicture& picture : level.pictures) level.looks.push_back(looks_of(picture, rays, params.samples));
+  return level;
+}
+
+/// A first guess: that all pictures are as bright and as lively as one another.
+void guess_light(const Level& level, std::vector<PictureUnknowns>& unknowns) {
+  std::vector<double> means, deviations;
+  double mean_of_all = 0.0, deviation_of_all = 0.0;
+  for (const ShrunkPicture& picture : level.pictures) {
+    double sum = 0.0, squares = 0.0;
+    for (int row = 0; row < picture.rows(); ++row)
+      for (int column = 0; column < picture.columns(); ++column) {
+        const auto value = static_cast<double>(picture.at(column, row));
+        sum += value, squares += value * value;
+      }
+    const double count = static_cast<double>(picture.columns()) * picture.rows();
+    means.push_back(sum / count);
+    deviations.push_back(std::sqrt(std::max(1e-6, squares / count - sum / count * (sum / count))));
+    mean_of_all += means.back(), deviation_of_all += deviations.back();
+  }
+  mean_of_all /= static_cast<double>(means.size()), deviation_of_all /= static_cast<double>(means.size());
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const double gain = std::clamp(deviations[i] / deviation_of_all, 0.3, 3.0);
+    unknowns[i].light = {std::log(gain), means[i] - gain * mean_of_all};
+  }
+}
+
+Pose2 pose_of(const PictureUnknowns& unknown) {
+  return {unknown.pose[0], unknown.pose[1], Angle::radians(unknown.pose[2])};
+}
+
+/// Which pictures each one is laid on: the next, and others from near to far, so that their parallax tells the height.
+std::vector<std::vector<std::size_t>> partners_of(const std::vector<PictureUnknowns>& unknowns, double reach,
+                                                  int count) {
+  std::vector<std::vector<std::size_t>> partners(unknowns.size());
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      const double away = distance(pose_of(unknowns[i]).position(), pose_of(unknowns[k]).position());
+      if (k != i && away > kNearestPartner * reach && away < kFarthestPartner * reach) near.emplace_back(away, k);
+    }
+    std::sort(near.begin(), near.end());
+    const std::size_t wanted = std::min(near.size(), static_cast<std::size_t>(count));
+    for (std::size_t n = 0; n < wanted; ++n) partners[i].push_back(near[n * near.size() / wanted].second);
+    if (i + 1 < unknowns.size() && std::find(partners[i].begin(), partners[i].end(), i + 1) == partners[i].end())
+      partners[i].push_back(i + 1);
+  }
+  return partners;
+}
+
+std::vector<PartSample> with_parts(const std::vector<CeilingSample>& looks, const CeilingMosaic& mosaic,
+                                   const CeilingCamera& camera, const Pose2& map_from_robot) {
+  std::vector<PartSample> samples;
+  const Eigen::Vector3d& lens = camera.mount.position;
+  for (const CeilingSample& look : looks) {
+    for (std::size_t part = 0; part < mosaic.heights.size(); ++part) {
+      const double above = mosaic.heights[part] - lens.z();
+      const CellIndex cell =
+          mosaic.frame.cell_at(map_from_robot * Point2{lens.x() + above * static_cast<double>(look.slope_x),
+                                                       lens.y() + above * static_cast<double>(look.slope_y)});
+      if (!mosaic.frame.holds(cell) || mosaic.part[mosaic.frame.index(cell)] != part) continue;
+      samples.push_back({look, static_cast<std::uint8_t>(part)});
+      break;
+    }
+  }
+  return samples;
+}
+
+/// Those that no lower part hides from the other picture.
+std::vector<PartSample> seen_by(const std::vector<PartSample>& samples, const CeilingMosaic& mosaic,
+                                const CeilingCamera& camera, const Pose2& map_from_robot, const Pose2& map_from_other) {
+  const Eigen::Vector3d& lens = camera.mount.position;
+  const Point2 other_lens = map_from_other * Point2{lens.x(), lens.y()};
+  std::vector<PartSample> seen;
+  for (const PartSample& sample : samples) {
+    const double above = mosaic.heights[sample.part] - lens.z();
+    const Point2 at = map_from_robot * Point2{lens.x() + above * static_cast<double>(sample.look.slope_x),
+                                              lens.y() + above * static_cast<double>(sample.look.slope_y)};
+    if (is_visible(mosaic, other_lens, lens.z(), at, sample.part)) seen.push_back(sample);
+  }
+  return seen;
+}
+
+void hold(ceres::Problem& problem, std::span<const double> errors, std::span<const double> at, double* block) {
+  const auto size = static_cast<Eigen::Index>(errors.size());
+  ceres::Matrix weights = ceres::Matrix::Zero(size, size);
+  ceres::Vector mean(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    weights(i, i) = 1.0 / errors[static_cast<std::size_t>(i)];
+    mean(i) = at[static_cast<std::size_t>(i)];
+  }
+  problem.AddResidualBlock(new ceres::NormalPrior(weights, mean), nullptr, block);
+}
+
+/// Poses, light and heights, on one level.
+void solve_level(const CeilingCamera& camera, const Level& level, std::span<const PlacedPicture> priors,
+                 const MosaicSolverParams& params, std::vector<PictureUnknowns>& unknowns, SolvedMosaic& solved) {
+  ceres::Problem problem;
+  CeilingMosaic& mosaic = solved.mosaic;
+  const double reach = params.steepest * (mosaic.heights.front() - camera.mount.position.z());
+  const auto partners = partners_of(unknowns, reach, params.partners);
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const std::vector<PartSample> samples = with_parts(level.looks[i], mosaic, camera, pose_of(unknowns[i]));
+    if (samples.empty()) continue;
+    std::vector<std::uint8_t> parts;
+    for (const PartSample& sample : samples)
+      if (std::find(parts.begin(), parts.end(), sample.part) == parts.end()) parts.push_back(sample.part);
+    for (const std::size_t k : partners[i]) {
+      const std::vector<PartSample> common =
+          seen_by(samples, mosaic, camera, pose_of(unknowns[i]), pose_of(unknowns[k]));
+      if (common.empty()) continue;
+      std::vector<double*> blocks{unknowns[i].pose.data(), unknowns[i].light.data(), unknowns[k].pose.data(),
+                                  unknowns[k].light.data()};
+      for (const std::uint8_t part : parts) blocks.push_back(&mosaic.heights[part]);
+      problem.AddResidualBlock(new MosaicPair{camera, common, parts, level.pictures[k], params.pair}, nullptr, blocks);
+    }
+  }
+  const std::array<double, 3> pose_errors{params.position_error, params.position_error, params.heading_error};
+  const std::array<double, 3> firmly{kFirmly, kFirmly, kFirmly};
+  const std::array<double, 2> light_errors{params.gain_error, params.offset_error}, neutral{};
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    const Pose2& prior = priors[i].map_from_robot;
+    // The angle that is nearest to the estimate's, which may have gone beyond half a turn.
+    const double heading = unknowns[i].pose[2] + (prior.theta - Angle::radians(unknowns[i].pose[2])).radians();
+    const std::array<double, 3> at{prior.x, prior.y, heading};
+    if (params.use_priors || i == 0)
+      hold(problem, params.use_priors ? pose_errors : firmly, at, unknowns[i].pose.data());
+    hold(problem, light_errors, neutral, unknowns[i].light.data());
+    if (!params.solve_light) problem.SetParameterBlockConstant(unknowns[i].light.data());
+  }
+  for (double& height : mosaic.heights) {
+    if (!problem.HasParameterBlock(&height)) continue;
+    if (!params.solve_heights) problem.SetParameterBlockConstant(&height);
+    problem.SetParameterLowerBound(&height, 0, camera.mount.position.z() + 0.1);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // others call the BLAS that a machine has
+  options.max_num_iterations = params.most_steps;
+  options.function_tolerance = 1e-4;
+  options.num_threads = 1;  // sums in one order: the same mosaic everywhere
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  solved.unknowns = static_cast<std::size_t>(summary.num_effective_parameters_reduced);
+  solved.residuals = static_cast<std::size_t>(summary.num_residuals_reduced);
+  solved.squares = 2.0 * summary.final_cost / std::max<double>(1.0, static_cast<double>(solved.residuals));
+}
+
+GridFrame frame_of(std::span<const PlacedPicture> pictures, const MosaicSolverParams& params) {
+  Point2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point2 high{-low.x, -low.y};
+  for (const PlacedPicture& placed : pictures) {
+    low = {std::min(low.x, placed.map_from_robot.x), std::min(low.y, placed.map_from_robot.y)};
+    high = {std::max(high.x, placed.map_from_robot.x), std::max(high.y, placed.map_from_robot.y)};
+  }
+  const auto cells = [&](double length) {
+    return static_cast<int>(std::ceil((length + 2.0 * params.margin) / params.resolution));
+  };
+  return {cells(high.x - low.x), cells(high.y - low.y), params.resolution, low - Point2{params.margin, params.margin}};
+}
+
+/// All of it at the height that most cells have.
+void flatten(CeilingMosaic& mosaic) {
+  std::vector<std::size_t> cells(mosaic.heights.size());
+  for (const std::uint8_t part : mosaic.part)
+    if (part != CeilingMosaic::kUnknown) ++cells[part];
+  const auto most = static_cast<std::size_t>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+  mosaic.heights = {mosaic.heights[most]};
+  for (std::uint8_t& part : mosaic.part)
+    if (part != CeilingMosaic::kUnknown) part = 0;
+}
+
+}  // namespace
+
+Result<void> MosaicSolverParams::validate() const {
+  if (!(resolution > 0.0 && margin >= 0.0 && steepest > 0.0))
+    return fail("mosaic.resolution and steepest must be > 0, margin >= 0");
+  if (blocks.empty() || *std::min_element(blocks.begin(), blocks.end()) < 1)
+    return fail("mosaic.blocks must be > 0, and some");
+  if (samples < 1 || partners < 1 || most_steps < 1) return fail("mosaic.samples, partners and most_steps must be > 0");
+  if (!(position_error > 0.0 && heading_error > 0.0 && gain_error > 0.0 && offset_error > 0.0))
+    return fail("mosaic.position_error, heading_error, gain_error and offset_error must be > 0");
+  return sweep.validate();
+}
+
+Result<SolvedMosaic> solve_mosaic(const CeilingCamera& camera, std::span<const PlacedPicture> pictures,
+                                  const MosaicSolverParams& params, const MosaicProgress& progress) {
+  if (const auto valid = params.validate(); !valid) return tl::unexpected<Error>(valid.error());
+  if (pictures.size() < 3) return fail("a ceiling needs three pictures at least");
+  for (const PlacedPicture& placed : pictures)
+    if (placed.picture.columns != camera.lens.params().columns || placed.picture.rows != camera.lens.params().rows)
+      return fail("a picture has not the size of the lens");
+  SolvedMosaic solved;
+  solved.pictures.assign(pictures.begin(), pictures.end());
+  std::vector<PictureUnknowns> unknowns;
+  for (const PlacedPicture& placed : pictures)
+    unknowns.push_back(
+        {{placed.map_from_robot.x, placed.map_from_robot.y, placed.map_from_robot.theta.radians()}, {0.0, 0.0}});
+  const GridFrame frame = frame_of(pictures, params);
+  const auto say = [&](const std::string& stage, double share) { return !progress || progress(stage, share); };
+  const auto sweep = [&](const Level& level) {
+    solved.mosaic = sweep_heights(frame, camera, level.pictures, unknowns, params.sweep);
+    if (!params.solve_heights && !solved.mosaic.heights.empty()) flatten(solved.mosaic);
+  };
+  const std::size_t levels = params.blocks.size();
+  const std::size_t sweeps_again = levels > 1 ? 1 : 0;  // before this level the poses are good to a coarse pixel
+  for (std::size_t i = 0; i < levels; ++i) {
+    const Level level = level_of(camera, pictures, params.blocks[i], params);
+    if (i == 0 || i == sweeps_again) {
+      if (i == 0 && params.solve_light) guess_light(level, unknowns);
+      if (!say("heights", (static_cast<double>(i) + 0.1) / static_cast<double>(levels)) && i > 0) break;
+      sweep(level);
+      if (solved.mosaic.heights.empty())
+        return fail("the ceiling is too plain, or its pictures are too few, to tell its height");
+    }
+    solve_level(camera, level, pictures, params, unknowns, solved);
+    if (!say("poses, heights and light, " + std::to_string(params.blocks[i]) + " pixels a block",
+             (static_cast<double>(i) + 0.9) / static_cast<double>(levels)))
+      break;
+  }
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    solved.pictures[i].map_from_robot = pose_of(unknowns[i]);
+    solved.pictures[i].gain = std::exp(unknowns[i].light[0]);
+    solved.pictures[i].offset = unknowns[i].light[1];
+  }
+  MosaicDrawing drawing{solved.mosaic, camera, params.steepest};
+  for (const PlacedPicture& placed : solved.pictures) drawing.add(placed);
+  solved.mosaic = drawing.mosaic();
+  say("drawn", 1.0);
+  return solved;
+}
+
+}  // namespace docent::vision
