@@ -1,4 +1,5 @@
-"""What the robot's eyes make of pictures: things on photographs, beside OpenCV's classifiers; a ride under a real ceiling; mosaics of drawn ones."""
+"""What the robot's eyes make of pictures: things on photographs, beside OpenCV's classifiers; a ride under a real ceiling; mosaics of drawn ones; the
+floor in colour pictures beside a depth camera's; tags, and docking by one."""
 import os
 import re
 import subprocess
@@ -6,8 +7,10 @@ from pathlib import Path
 
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["objects", "real-ceiling", "mosaic"]
+PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking"]
 BESIDE_OPENCV = "tests/objects_beside_opencv/docent_objects_test"
+BESIDE_DEPTH = "tests/floor_beside_depth/docent_floor_test"
+BY_TAG = "tests/docking_by_tag/docent_docking_test"
 DRAWN_CEILINGS = "tests/drawn_ceilings/docent_drawn_ceilings_test"
 REAL_CEILING = "tests/real_ceiling/docent_real_ceiling_test"
 NEAR = 0.05  # [m]
@@ -76,6 +79,19 @@ def mosaic(build, options, verdict):
     verdict.want("mosaics of drawn halls: poses, heights within 2 %", f"{len(found)} mosaics", done.returncode == 0 and bool(found))
 
 
+def rgbd(build, data, verdict):
+    good = run(build, BESIDE_DEPTH, DOCENT_DATA=str(data)).returncode == 0
+    frames = sum(1 for _ in (data / "vision" / "rgbd").glob("*.color.jpg"))
+    verdict.want("floor by colour: IoU with depth's at least 0.85; distances to where it ends, by lines up to 3 m, within 10 % in 95 %",
+                 f"{frames} frames", good and frames > 0)
+
+
+def docking(build, data, verdict):
+    runs = os.environ.get("DOCKING_RUNS", "100")
+    good = run(build, BY_TAG, DOCENT_DATA=str(data), DOCKING_RUNS=runs).returncode == 0
+    verdict.want("docking by tag from 30 degrees and 0.5 m: 99 % at the contacts, within 1 cm beside; tags of photographs found", f"{runs} approaches", good)
+
+
 def protocol(build, root, options):
     """@param build  folder of the build"""
     verdict = Verdict()
@@ -86,5 +102,9 @@ def protocol(build, root, options):
         real_ceiling(build, data, options, verdict)
     if options.part in (None, "mosaic"):
         mosaic(build, options, verdict)
+    if options.part in (None, "rgbd"):
+        rgbd(build, data, verdict)
+    if options.part in (None, "docking"):
+        docking(build, data, verdict)
     verdict.print()
     return verdict
