@@ -10,10 +10,10 @@
 namespace docent::vision {
 namespace {
 
-using testing::Box;
-using testing::front_camera;
-using testing::picture_of;
-using testing::Scene;
+using made_up_room::Box;
+using made_up_room::front_camera;
+using made_up_room::picture_of;
+using made_up_room::Scene;
 
 /// Looks `times` times from one place.
 void look_at(DepthSight& sight, const Scene& scene, int times, Rng& rng, double x = 0.0,

@@ -10,7 +10,7 @@
 
 // A room of boxes for tests, and what a depth camera would measure in it.
 
-namespace docent::vision::testing {
+namespace docent::vision::made_up_room {
 
 /// A box, base frame at the start.
 struct Box {
@@ -65,4 +65,4 @@ inline DepthCamera front_camera() {
   return camera;
 }
 
-}  // namespace docent::vision::testing
+}  // namespace docent::vision::made_up_room
