@@ -48,9 +48,9 @@ Eigen::Vector3d camera_point(const Frame& frame, double focal, int column, int r
   return {(column - 0.5 * frame.depth.columns) / focal * depth, (row - 0.5 * frame.depth.rows) / focal * depth, depth};
 }
 
-vision::CameraMount mount_of(const Frame& frame, const WorldFloor& floor) {
+vision::DepthCameraMount mount_of(const Frame& frame, const WorldFloor& floor) {
   const Eigen::Vector3d up = frame.world_from_camera.transpose() * floor.up;
-  vision::CameraMount mount;
+  vision::DepthCameraMount mount;
   mount.z = floor.up.dot(frame.position) - floor.height;
   mount.down = Angle::radians(std::asin(-up.z()));
   mount.roll = Angle::radians(std::atan2(-up.x(), -up.y()));

@@ -23,7 +23,7 @@ struct DepthPicture {
 };
 
 /// Where a camera sits on the robot: base frame, x to the front, y to the left, z up from the floor.
-struct CameraMount {
+struct DepthCameraMount {
   double x = 0.0;  ///< [m]
   double y = 0.0;  ///< [m]
   double z = 1.0;  ///< [m] above the floor
@@ -39,7 +39,7 @@ struct DepthCamera {
   double focal = 292.5;     ///< [pixels]
   double centre_x = 160.0;  ///< [pixels] of the axis; the centre of the first pixel is 0
   double centre_y = 120.0;
-  CameraMount mount;
+  DepthCameraMount mount;
 
   [[nodiscard]] Result<void> validate() const;
   /// Columns: the camera's x, y, z in the base frame.
