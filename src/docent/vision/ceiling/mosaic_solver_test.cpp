@@ -124,19 +124,6 @@ TEST(SolveMosaic, FindsPosesHeightsAndLight) {
   EXPECT_EQ(part_at({8.0, 5.5}), 0);
 }
 
-TEST(SolveMosaic, IsWorseWithoutHeightsAndWithoutLight) {
-  const Hall hall{.seed = 12};
-  const CeilingCamera eye = camera();
-  const Drive ride = drive(hall, eye, 4);
-  const double whole = off(solve_mosaic(eye, ride.placed, small())->pictures, ride.truth);
-  MosaicSolverParams params = small();
-  params.solve_light = false;
-  EXPECT_GT(off(solve_mosaic(eye, ride.placed, params)->pictures, ride.truth), 1.1 * whole);
-  params = small();
-  params.solve_heights = false;
-  EXPECT_GT(off(solve_mosaic(eye, ride.placed, params)->pictures, ride.truth), 1.1 * whole);
-}
-
 TEST(SolveMosaic, RefusesWhatTellsNothing) {
   Hall hall{.seed = 12};
   hall.is_plain = true;
