@@ -39,7 +39,7 @@ PROGRAMS = {
     "a bracket that is missing": ("proc(main, [goto(home)).\n", "tour.pl:1"),
     "an unknown action": ("proc(main, jump).\n", "jump is neither an action nor a procedure"),
     "an unknown place": ("proc(main, drive(e99)).\n", "there is no place"),
-    "another language": ("def main():\n    drive('zuse')\n", "tour.pl:1"),
+    "another language": ("def main():\n    drive('zuse')\n", "tour.pl:2: Syntax error"),
     "an exception": (RUN + "go_wrong :- throw(nonsense).\n", "the program throws nonsense"),
 }
 
