@@ -362,6 +362,9 @@ class MuseumYamlReader : MuseumFields {
       const std::string mode = mode_at(museum_, minute);
       if (mode != "open")
         report(reader.node("daily"), who + ": the museum's hours say " + mode + " at " + clock_text(minute));
+      for (const Tour& other : museum_.tours)
+        if (std::find(other.daily.begin(), other.daily.end(), minute) != other.daily.end())
+          report(reader.node("daily"), who + ": tour '" + other.id + "' begins at " + clock_text(minute) + ", too");
     }
     const YAML::Node exhibits = reader.node("exhibits");
     if (tour.exhibits.empty() == !tour.minutes) throw fault(entry, who + ": needs either exhibits or minutes");

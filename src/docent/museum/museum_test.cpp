@@ -223,6 +223,11 @@ const Broken kBroken[]{
     {"TourWithBoth", ", minutes: 6", ", minutes: 6, exhibits: [coin]", "quick", "either exhibits or minutes"},
     {"DailyAtNoTime", ", minutes: 6", ", minutes: 6, daily: [2 pm]", "quick", "time '2 pm': expected HH:MM"},
     {"DailyTwice", ", minutes: 6", R"(, minutes: 6, daily: ["14:00", "14:00"])", "quick", "14:00 stands twice"},
+    {"DailyWithAnotherTour", R"(exhibits: [clock, coin]}
+  - {id: quick, title: {en: "Quick", de: "Schnell"}, minutes: 6)",
+     R"(exhibits: [clock, coin], daily: ["14:00"]}
+  - {id: quick, title: {en: "Quick", de: "Schnell"}, minutes: 6, daily: ["14:00"])",
+     "quick", "tour 'all' begins at 14:00, too"},
     {"DailyInTheHoursOfTheWeb", ", minutes: 6", R"(, minutes: 6, daily: ["20:30"])", "quick", "say web at 20:30"},
     {"MinutesZero", "minutes: 6", "minutes: 0", "quick", "minutes must be > 0"},
     {"MinutesNoNumber", "minutes: 6", "minutes: some", "quick", "expected a number"},

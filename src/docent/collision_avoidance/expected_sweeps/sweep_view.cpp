@@ -22,10 +22,8 @@ std::shared_ptr<const SampleRays> rays_of(const SweepView& view, const std::shar
   if (like && like->first_bearing == view.first_bearing && like->bearing_step == view.bearing_step &&
       like->units.size() == samples)
     return like;
-  SampleRays rays{view.first_bearing, view.bearing_step, {}};
-  rays.units.reserve(samples);
-  for (std::size_t i = 0; i < samples; ++i)
-    rays.units.push_back(unit(Angle::radians(view.first_bearing + static_cast<double>(i) * view.bearing_step)));
+  SampleRays rays{view.first_bearing, view.bearing_step,
+                  beam_directions(view.first_bearing, view.bearing_step, samples)};
   return std::make_shared<const SampleRays>(std::move(rays));
 }
 

@@ -22,6 +22,14 @@ struct PieceParams {
   return params.least_spacing + params.per_beam * bearing_step * std::min(range, other);
 }
 
+/// [beams] Unit vectors to where beams look, sensor frame. O(beams).
+[[nodiscard]] inline std::vector<Point2> beam_directions(double first_bearing, double bearing_step, std::size_t beams) {
+  std::vector<Point2> units(beams);
+  for (std::size_t i = 0; i < beams; ++i)
+    units[i] = unit(Angle::radians(first_bearing + static_cast<double>(i) * bearing_step));
+  return units;
+}
+
 /// Where the beams of a scanner look, sensor frame: computed once, as long as its sweeps keep their form.
 class BeamDirections {
  public:
@@ -30,9 +38,7 @@ class BeamDirections {
     if (first_bearing == first_bearing_ && bearing_step == bearing_step_ && beams == units_.size()) return units_;
     first_bearing_ = first_bearing;
     bearing_step_ = bearing_step;
-    units_.resize(beams);
-    for (std::size_t i = 0; i < beams; ++i)
-      units_[i] = unit(Angle::radians(first_bearing + static_cast<double>(i) * bearing_step));
+    units_ = beam_directions(first_bearing, bearing_step, beams);
     return units_;
   }
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 namespace docent::interaction {
 namespace {
 
@@ -17,7 +15,6 @@ TEST(Pronunciation, PhonemesOfTheOneAlphabetInThoseOfTheOther) {
 }
 
 TEST(Pronunciation, EspeakSaysHowWordsSound) {
-  if (!std::filesystem::exists("/usr/bin/espeak-ng")) GTEST_SKIP() << "no espeak-ng";
   const auto sounds = pronounce({"museum", "zuse", "--help"});
   ASSERT_TRUE(sounds) << sounds.error().message;
   EXPECT_EQ(sounds->at(0), "M Y UW Z IY AH M");
