@@ -5,9 +5,10 @@ import re
 import subprocess
 from pathlib import Path
 
+from evaluation import eyes_sight
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking"]
+PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "things", "stairs"]
 BESIDE_OPENCV = "tests/objects_beside_opencv/docent_objects_test"
 BESIDE_DEPTH = "tests/floor_beside_depth/docent_floor_test"
 BY_TAG = "tests/docking_by_tag/docent_docking_test"
@@ -92,7 +93,7 @@ def docking(build, data, verdict):
     verdict.want("docking by tag from 30 degrees and 0.5 m: 99 % at the contacts, within 1 cm beside; tags of photographs found", f"{runs} approaches", good)
 
 
-def protocol(build, root, options):
+def protocol(build, root, options, simulations):
     """@param build  folder of the build"""
     verdict = Verdict()
     data = Path(os.environ.get("DOCENT_DATA", root.parent / "shared" / "data"))
@@ -106,5 +107,9 @@ def protocol(build, root, options):
         rgbd(build, data, verdict)
     if options.part in (None, "docking"):
         docking(build, data, verdict)
+    if options.part in (None, "things"):
+        eyes_sight.part_things(simulations, options, verdict)
+    if options.part in (None, "stairs"):
+        eyes_sight.part_stairs(simulations, options, verdict, simulations.cache)
     verdict.print()
     return verdict

@@ -292,6 +292,48 @@ struct Image {
     v("data", m.data);
   }
 };
+/// The part of a sensor's picture that a camera hands out.
+struct RegionOfInterest {
+  static constexpr const char* kType = "sensor_msgs/msg/RegionOfInterest";
+  std::uint32_t x_offset = 0, y_offset = 0;  ///< [pixels]
+  std::uint32_t height = 0, width = 0;       ///< [pixels]; 0: all
+  bool do_rectify = false;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("x_offset", m.x_offset);
+    v("y_offset", m.y_offset);
+    v("height", m.height);
+    v("width", m.width);
+    v("do_rectify", m.do_rectify);
+  }
+};
+/// How a camera's lens bends light, sent beside its pictures.
+struct CameraInfo {
+  static constexpr const char* kType = "sensor_msgs/msg/CameraInfo";
+  std_msgs::Header header;              ///< of the picture
+  std::uint32_t height = 0, width = 0;  ///< [pixels] at which it was calibrated
+  std::string distortion_model;         ///< plumb_bob, equidistant, …
+  std::vector<double> d;                ///< coefficients of the model
+  std::array<double, 9> k{};            ///< row-major fx 0 cx, 0 fy cy, 0 0 1 [pixels]; all 0: nobody has calibrated it
+  std::array<double, 9> r{};            ///< rectification
+  std::array<double, 12> p{};           ///< row-major, of the rectified picture [pixels]
+  std::uint32_t binning_x = 0, binning_y = 0;  ///< [pixels] of the sensor in one of the picture; 0 as 1
+  RegionOfInterest roi;
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("height", m.height);
+    v("width", m.width);
+    v("distortion_model", m.distortion_model);
+    v("d", m.d);
+    v("k", m.k);
+    v("r", m.r);
+    v("p", m.p);
+    v("binning_x", m.binning_x);
+    v("binning_y", m.binning_y);
+    v("roi", m.roi);
+  }
+};
 }  // namespace sensor_msgs
 
 namespace nav_msgs {

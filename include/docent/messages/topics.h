@@ -59,6 +59,12 @@ inline constexpr Topic<sensor_msgs::CompressedImage> kSceneCamera{"scene_camera/
 /// The same from drivers that do not compress, which then need no topic of a compressed picture.
 inline constexpr Topic<sensor_msgs::Image> kCameraImage{"camera/image", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::Image> kSceneCameraImage{"scene_camera/image", Qos::sensor, 1};
+/// The robot's eyes, which no person looks through: ahead and down, in mm or m of depth, and up at the ceiling. Their
+/// lenses are said beside them.
+inline constexpr Topic<sensor_msgs::Image> kDepthImage{"depth_camera/image", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::CameraInfo> kDepthInfo{"depth_camera/camera_info", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::Image> kCeilingImage{"ceiling_camera/image", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::CameraInfo> kCeilingInfo{"ceiling_camera/camera_info", Qos::sensor, 1};
 inline constexpr Topic<docent_msgs::CameraView> kSceneCameraView{"scene_camera/view", Qos::command, 0, 2.0};
 inline constexpr Topic<geometry_msgs::Twist> kCommandVelocity{"cmd_vel", Qos::command, 0, 0.3};
 // Frames.
@@ -71,6 +77,7 @@ inline constexpr Topic<nav_msgs::OccupancyGrid> kLiveMap{"docent/live_map", Qos:
 inline constexpr Topic<docent_msgs::LiveMapUpdate> kLiveMapUpdate{"docent/live_map_updates", Qos::command};
 inline constexpr Topic<docent_msgs::Belief> kBelief{"docent/belief", Qos::state};
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kPose{"amcl_pose", Qos::state};
+inline constexpr Topic<docent_msgs::PoseFix> kPoseFix{"docent/pose_fix", Qos::sensor};
 /// From a person with rviz2 or Lichtblick: here stands the robot.
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kInitialPose{"initialpose", Qos::command, 0, 2.0,
                                                                               fault_of_initial_pose};
@@ -162,6 +169,7 @@ void for_each_robot_topic(F&& f) {
       f(kSoundState), f(kLimits), f(kSteering), f(kStop), f(kMuseumMoved), f(kHealth);
   f(kInitialPose), f(kGoalPose), f(kParticleCloud), f(kBeliefPoses), f(kPeopleMarkers), f(kMuseumMarkers);
   f(kHeadCommand), f(kJointStates), f(kDiagnostics), f(kCameraImage), f(kSceneCameraImage);
+  f(kDepthImage), f(kDepthInfo), f(kCeilingImage), f(kCeilingInfo), f(kPoseFix);
 }
 /// Calls f(topic) for every topic of the truth.
 template <class F>

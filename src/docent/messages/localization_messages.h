@@ -120,6 +120,28 @@ struct Belief {
   }
 };
 
+/// A fix: where another sensor than the lasers finds the robot by itself. Sent with each picture or reading that says anything.
+struct PoseFix {
+  static constexpr const char* kType = "docent_msgs/msg/PoseFix";
+  std_msgs::Header header;  ///< frame map; when the picture was taken
+  std::string source;       ///< which sensor: ceiling
+  double x = 0;             ///< [m], map
+  double y = 0;
+  double theta = 0;                    ///< [rad]
+  std::array<double, 9> covariance{};  ///< row-major x, y, theta
+  double p_wrong = 1;                  ///< probability that the robot is elsewhere
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("header", m.header);
+    v("source", m.source);
+    v("x", m.x);
+    v("y", m.y);
+    v("theta", m.theta);
+    v("covariance", m.covariance);
+    v("p_wrong", m.p_wrong);
+  }
+};
+
 /// A changed rectangle of the live map. It builds on the full map of stamp `base`; numbers count up from 1 behind each
 /// full map. Who misses a number waits for the next full map, at most ten seconds.
 struct LiveMapUpdate {

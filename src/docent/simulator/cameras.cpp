@@ -25,9 +25,10 @@ Result<void> CameraOptions::validate() const {
   return {};
 }
 
-Cameras::Cameras(transport::Bus& bus, const World& world, const CameraOptions& options)
+Cameras::Cameras(transport::Bus& bus, const World& world, const CameraOptions& options, const Rng& rng)
     : options_{options},
       place_{world.scene_camera},
+      eyes_{bus, options.eyes, rng},
       robot_{bus.publisher(topics::kCamera)},
       scene_{bus.publisher(topics::kSceneCamera)} {
   change_world(world);
@@ -45,11 +46,15 @@ Figure Cameras::figure_of(const Person& person, Time now) {
   return figure;
 }
 
-Cameras::Pictures Cameras::draw(Time now, const Pose2& world_from_base, double radius, std::span<const Person> people) {
+void Cameras::show_people(Time now, std::span<const Person> people) {
   figures_.clear();
   constexpr std::size_t kForget = 4;  // times as many as there are
   if (headings_.size() > kForget * (people.size() + 10)) headings_.clear();
   for (const Person& person : people) add_figure(figures_, figure_of(person, now));
+}
+
+Cameras::Pictures Cameras::draw(Time now, const Pose2& world_from_base, double radius, std::span<const Person> people) {
+  show_people(now, people);
   const RobotFigure robot{world_from_base, radius, face_.pan, face_.tilt, face_.valence};
   renderer_.set_figures(figures_);
   Lens lens{{}, 0.0, face_.tilt, kRobotField, options_.width, options_.height};
@@ -70,6 +75,13 @@ Cameras::Pictures Cameras::draw(Time now, const Pose2& world_from_base, double r
 void Cameras::step(Time now, std::uint64_t step, const Pose2& world_from_base, double radius,
                    std::span<const Person> people) {
   mount_.step(kStep);
+  if (eyes_.is_due(step)) {
+    show_people(now, people);
+    renderer_.set_figures(figures_);
+    eyes_.look(renderer_, now, step, world_from_base);
+  }
+  eyes_.send(now);
+  if (!options_.for_people) return;
   const auto every = static_cast<std::uint64_t>(std::max(1L, std::lround(1.0 / (options_.rate * kStep))));
   if (step % every != 0) return;
   const Pictures seen = draw(now, world_from_base, radius, people);

@@ -120,21 +120,22 @@ void SimulatedMuseum::Impl::play(const ScannerLie& event) {
 void SimulatedMuseum::Impl::play(const Stool& event) {
   Polygon outline;
   for (int i = 0; i < 8; ++i) outline.push_back(event.at + event.radius * unit(Angle::degrees(45.0 * i)));
-  put_up("stool", SolidKind::furniture, std::move(outline), event.height, event.duration);
+  put_up("stool", event.bottom > 0.0 ? SolidKind::plate : SolidKind::furniture, std::move(outline), event.bottom,
+         event.height, event.duration);
 }
 
 void SimulatedMuseum::Impl::play(const ClosedPassage& event) {
   const Point2 way = event.to - event.from;
   const Point2 across = (0.05 / norm(way)) * Point2{-way.y, way.x};
   put_up("closed", SolidKind::wall, {event.from - across, event.to - across, event.to + across, event.from + across},
-         1.2, event.duration);
+         0.0, 1.2, event.duration);
 }
 
-void SimulatedMuseum::Impl::put_up(const std::string& kind, SolidKind solid, Polygon outline, double height,
+void SimulatedMuseum::Impl::put_up(const std::string& kind, SolidKind solid, Polygon outline, double bottom, double top,
                                    double duration) {
   const std::string id = kind + "-" + std::to_string(event_);
   temporary_.push_back(
-      {{id, solid, std::move(outline), 0.0, height, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
+      {{id, solid, std::move(outline), bottom, top, true}, duration > 0.0 ? run_seconds() + duration : 0.0});
   offer(kind, id);
 }
 
@@ -202,6 +203,11 @@ void SimulatedMuseum::Impl::play(const ChargerFault& event) {
   charger_fault_until_ = end_of(event.duration);
   has_mute_battery_ = has_mute_battery_ || event.kind == ChargerFault::Kind::mute;
   offer("charger", "");
+}
+
+void SimulatedMuseum::Impl::play(const EyeFault& event) {
+  if (cameras_) cameras_->set_fault(event, time_);
+  offer("eye", event.eye == EyeFault::Eye::depth ? "depth" : "ceiling");
 }
 
 void SimulatedMuseum::Impl::play(const OdometryJump& event) {

@@ -68,7 +68,7 @@ SimulatedMuseum::Impl::Impl(transport::Bus& robot_bus, transport::Bus& truth_bus
       contacts_{truth_bus.publisher(topics::kTrueContact)},
       offers_{truth_bus.publisher(topics::kTrueOffer)} {
   battery_.set_charge(options_.battery);
-  if (options_.cameras) cameras_.emplace(robot_bus, world_, *options_.cameras);
+  if (options_.cameras) cameras_.emplace(robot_bus, world_, *options_.cameras, rng_.stream("cameras"));
   docent_msgs::RunInfo info = options_.run_info;
   info.seed = options_.seed;
   info.crowd = options_.crowd;

@@ -85,7 +85,7 @@ class SimulatedMuseum::Impl {
   void play(const SensorFault& event);
   void play(const Stool& event);
   void play(const ClosedPassage& event);
-  void put_up(const std::string& kind, SolidKind solid, Polygon outline, double height, double duration);
+  void put_up(const std::string& kind, SolidKind solid, Polygon outline, double bottom, double top, double duration);
   void play(const Visitors& event);
   [[nodiscard]] double end_of(double duration) const { return duration > 0.0 ? run_seconds() + duration : 1e9; }
   void play(const Pushers& event);
@@ -97,6 +97,7 @@ class SimulatedMuseum::Impl {
   void play(const Answers& event);
   void play(const BatteryChange& event);
   void play(const ChargerFault& event);
+  void play(const EyeFault& event);
   void play(const OdometryJump& event);
   void play(const ScannerLie& event);
   void play(const Transport& event);

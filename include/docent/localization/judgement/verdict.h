@@ -72,6 +72,9 @@ struct Evidence {
   double way = 0.0;           ///< [m] since the last update
   double turn = 0.0;          ///< [rad], >= 0
   Agreement readings;         ///< of one sweep
+  /// What a sensor says that finds the robot by itself, where there is one: P(wrong) if it has it at the best mode,
+  /// above 1 if it has it elsewhere.
+  std::optional<double> witness{};
 };
 
 /// `evidence` with what a summary says of its best mode. `predicted`: the best pose of the last update, moved by
@@ -108,7 +111,9 @@ class Verdict {
   /// confirmed, of how wide it is and of how the readings contradict it. Its weights are learned, see
   /// scripts/evaluation/calibration.py. Besides, another place may be the right one, as far as the whole way leaves
   /// it possible: a building in which two places look the same need not have been among those that were learned from.
-  /// And a robot that sees nothing is never sure. Before it has said "here" it is no less than the bound for that.
+  /// And a robot that sees nothing is never sure, unless another sensor finds it where it thinks to be: then the odds
+  /// of both count, as of sensors that err by themselves. Before it has said "here" it is no less than the bound for
+  /// that.
   [[nodiscard]] double p_lost() const;
   /// Readings pass through walls of the map, so many that the place must be wrong, or for so long nothing of the map
   /// was seen that odometry tells nothing any more.
@@ -138,6 +143,8 @@ class Verdict {
   [[nodiscard]] double p_lost(bool has_said) const;
   /// The same without what the last sweep alone says.
   [[nodiscard]] double lasting_doubt() const;
+  [[nodiscard]] double with_witness(double lost) const;
+  [[nodiscard]] bool is_witnessed() const;
   /// 0..1: a robot whose readings nearly all end on people sees nothing, and knows only what odometry says. Updates
   /// tell it, or, where the robot stands and they weigh little, the glances.
   [[nodiscard]] double blindness(bool has_said) const;
@@ -165,8 +172,9 @@ class Verdict {
   double turn_ = 0.0;
   double agreement_ = 0.5;
   double contradiction_ = 0.0;
-  double bad_ = 0.0;    ///< [m] with bad readings; a radian turned counts half a metre
-  double blind_ = 0.0;  ///< [m] driven since readings last agreed with the map
+  double bad_ = 0.0;                 ///< [m] with bad readings; a radian turned counts half a metre
+  double blind_ = 0.0;               ///< [m] driven since readings last agreed with the map
+  std::optional<double> witness_{};  ///< see Evidence
 };
 
 }  // namespace docent::localization

@@ -13,6 +13,7 @@
 #include "docent/localization/beam_choice/beam_origin.h"
 #include "docent/localization/belief/belief_summary.h"
 #include "docent/localization/belief/observation_model.h"
+#include "docent/localization/belief/pose_fix.h"
 #include "docent/localization/belief/pose_refiner.h"
 #include "docent/localization/judgement/tracks.h"
 #include "docent/localization/judgement/verdict.h"
@@ -39,6 +40,10 @@ class Localizer {
 
   /// Another sensor, whose observations count in every update from now on.
   void add_sensor(std::shared_ptr<ObservationModel> sensor) { sensors_.add(std::move(sensor)); }
+
+  /// Another sensor has found the robot by itself. A robot that does not keep its place sets out from a fix that is
+  /// sure; where it does, the fix bears its place out or speaks against it.
+  void take_fix(const PoseFix& fix);
 
   void start_unknown();  ///< the robot may be anywhere
   /// `odom_from_robot`: where odometry saw the robot when it was as `modes` say.
@@ -118,6 +123,8 @@ class Localizer {
   /// Of the best mode, among the places that the whole way leaves possible.
   [[nodiscard]] double share_of_best() const;
   void refine(const Update& update);
+  /// P(wrong) of a fix of now that has the robot where its best mode is; above 1: it has it elsewhere.
+  [[nodiscard]] std::optional<double> witness() const;
   void glance_at(const sensor_models::RangeSweep& sweep, const Pose2& map_from_robot);
   void forget_judgement();
 
@@ -125,6 +132,7 @@ class Localizer {
   LocalizerParams params_;
   std::unique_ptr<PoseBelief> belief_;
   ObservationModels sensors_;
+  std::shared_ptr<FixEvidence> fixes_;  ///< null: no sensor gives any
   UpdateCadence cadence_;
   Verdict verdict_;
   PoseRefiner refiner_;

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "docent/base/result.h"
@@ -12,6 +14,7 @@
 #include "docent/grid/occupancy_grid.h"
 #include "docent/mapping/occupancy/cell_rectangle.h"
 #include "docent/mapping/occupancy/cone_layer.h"
+#include "docent/mapping/occupancy/sight_layer.h"
 #include "docent/mapping/occupancy/touch_layer.h"
 
 namespace docent::mapping {
@@ -29,6 +32,7 @@ struct LiveMapParams {
   ConeLayerParams sonar{};                 ///< the sonars' layer
   ConeLayerParams infrared{.reach = 0.7};  ///< the infrared sensors' layer
   TouchLayerParams touch{};                ///< the layer of what was touched
+  SightLayerParams sight{};                ///< and that of what cameras see
   template <class V>
   void visit(V& v) {
     v("coarsening", coarsening);
@@ -42,6 +46,7 @@ struct LiveMapParams {
     v("sonar", sonar);
     v("infrared", infrared);
     v("touch", touch);
+    v("sight", sight);
   }
   [[nodiscard]] Result<void> validate() const;
 };
@@ -74,6 +79,10 @@ class LiveMap {
   }
   /// The body was touched, see TouchLayer::feel; by what a laser of these sees, it is no news.
   void add_touch(Point2 at, Point2 outward, std::span<const LaserLook> lasers, Time now);
+  /// Lines that nothing may touch, [m], map: see SightLayer. Each source has a layer of its own; of more than eight the
+  /// later ones are not heard.
+  void add_lines(const std::string& source, Point2 robot, std::span<const Segment> lines,
+                 std::span<const LaserLook> lasers, Time now);
   /// See TouchLayer::stand.
   void stand(Point2 centre, double radius) { touch_.stand(centre, radius); }
   /// Frees what nobody looked at for too long. O(cells).
@@ -109,6 +118,7 @@ class LiveMap {
   ConeLayer sonar_;
   ConeLayer infrared_;
   TouchLayer touch_;
+  std::map<std::string, SightLayer> sights_;  ///< by source
 };
 
 }  // namespace docent::mapping

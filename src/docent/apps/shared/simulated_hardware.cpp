@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "docent/modules/eyes/eye_places.h"
+
 namespace docent::apps {
 
 namespace {
@@ -21,6 +23,11 @@ simulator::ScannerKind kind_of(const robot::Scanner& scanner) {
   return kind;
 }
 
+simulator::CameraMount mount_of(const modules::EyePlace& place) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  return {place.x, place.y, place.z, place.pan * kDegree, place.tilt * kDegree, place.roll * kDegree};
+}
+
 }  // namespace
 
 simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
@@ -37,6 +44,19 @@ simulator::Hardware simulated_hardware(const robot::RobotBody& body) {
   hardware.infrared_radius = body.infrared_radius;
   hardware.has_tactile = body.tactile;
   return hardware;
+}
+
+Result<simulator::EyeOptions> simulated_eyes(const robot::RobotConfig& config) {
+  const auto sight = config.section<modules::SightParams>("sight");
+  if (!sight) return tl::unexpected<Error>(sight.error());
+  simulator::EyeOptions options;
+  const auto ceiling = config.section<modules::CeilingParams>("ceiling");
+  if (!ceiling) return tl::unexpected<Error>(ceiling.error());
+  options.up = ceiling->enabled;
+  options.eyes.rig.up_mount = mount_of(ceiling->place);
+  options.depth = sight->enabled;
+  options.eyes.rig.depth_mount = mount_of(sight->place);
+  return options;
 }
 
 Result<void> build_wrongly(simulator::Hardware& hardware, const simulator::BuildErrors& errors) {

@@ -164,7 +164,11 @@ class SimulationRun::Parts {
       return fail("--start: outside the area in which the robot may be");
     }
     options.requests_per_hour = options_.requests_per_hour;
-    if (options_.hosts_web || !options_.camera_pictures.empty()) options.cameras.emplace();
+    auto eyes = simulated_eyes(config_);
+    if (!eyes) return tl::unexpected<Error>(eyes.error());
+    const bool shows = options_.hosts_web || !options_.camera_pictures.empty();
+    if (shows || eyes->up || eyes->depth)
+      options.cameras = simulator::CameraOptions{.for_people = shows, .eyes = *eyes};
     if (museum_.charger) options.charger = museum_.charger->position();
     options.run_info.museum = museum_.folder.filename().string();
     options.run_info.mode = options_.mode;

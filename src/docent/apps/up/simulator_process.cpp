@@ -58,7 +58,10 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
       return fail(option + " " + start + ": outside the robot's area");
     }
   }
-  if (options.has_cameras) simulation.cameras.emplace();
+  auto eyes = simulated_eyes(*config);
+  if (!eyes) return tl::unexpected<Error>(eyes.error());
+  if (options.has_cameras || eyes->up || eyes->depth)
+    simulation.cameras = simulator::CameraOptions{.for_people = options.has_cameras, .eyes = *eyes};
   simulation.charger = place->charger;
   if (options.requests_per_hour >= 0.0) simulation.requests_per_hour = options.requests_per_hour;
   if (!options.scenario.empty()) {

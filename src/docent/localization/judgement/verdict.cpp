@@ -79,6 +79,7 @@ void Verdict::uproot() {
   localized_ = keeps_its_place_ = has_said_ = has_found_ = is_told_ = false;
   unsure_ = hopeless_ = 0;
   confirmed_ = way_ = turn_ = 0.0;
+  witness_.reset();
 }
 
 void Verdict::add(const Evidence& evidence) {
@@ -107,7 +108,8 @@ void Verdict::add(const Evidence& evidence) {
   const bool borne_out = agreement_ >= params_.least_agreement && contradiction_ <= params_.most_contradiction;
   // Readings that are too short are people; those that pass through walls mean that the place is wrong.
   const bool sees_nothing = agreement_ < 0.4 * params_.least_agreement;
-  blind_ = sees_nothing ? blind_ + evidence.way : 0.0;
+  witness_ = evidence.witness;
+  blind_ = sees_nothing && !is_witnessed() ? blind_ + evidence.way : 0.0;
   const bool contradicted = this->contradicted();
   if (!contradicted) bad_ = 0.0;
   if (contradicted && (through >= kFewReadings || hopelessly_blind()))
@@ -120,7 +122,7 @@ void Verdict::add(const Evidence& evidence) {
   const bool is_borne_on = evidence.is_same_mode && evidence.mass >= params_.too_little_mass &&
                            evidence.share >= kTooLittleShare && !contradicted && blind_ <= params_.blind_way;
   const bool stays = has_said_ && is_borne_on;
-  const bool is_found = is_good && borne_out && moved() >= 1.0 && seen() >= 1.0;
+  const bool is_found = (is_good && borne_out && moved() >= 1.0 && seen() >= 1.0) || (is_borne_on && is_witnessed());
   has_found_ = has_found_ ? is_borne_on : is_found && p_lost(true) <= params_.given_up;
   localized_ = localized_ ? stays && lasting_doubt() <= params_.no_longer_here
                           : (stays || is_found) && p_lost(true) <= params_.here;
@@ -150,7 +152,8 @@ void Verdict::look(const Glance& glance) {
 
 double Verdict::p_lost() const {
   const double lost = p_lost(has_said_);
-  return has_said_ ? lost : std::max(lost, is_told_ ? std::max(kLostWhereTold, params_.here) : params_.here);
+  return has_said_ || is_witnessed() ? lost
+                                     : std::max(lost, is_told_ ? std::max(kLostWhereTold, params_.here) : params_.here);
 }
 
 double Verdict::lasting_doubt() const {
@@ -170,7 +173,21 @@ double Verdict::p_lost(bool has_said) const {
   const double right = 1.0 / (1.0 + std::exp(z));
   const double others = kOddsOfOthers * (1.0 - share_);
   const double best_of_all = share_ / std::max(share_ + others, 1e-9);
-  return std::max(1.0 - right * best_of_all, kLostWhereBlind * blindness(has_said));
+  return with_witness(std::max(1.0 - right * best_of_all, kLostWhereBlind * blindness(has_said)));
+}
+
+bool Verdict::is_witnessed() const {
+  constexpr double kTrusted = 0.01;  // P(wrong) of a witness that is enough
+  return witness_ && *witness_ <= kTrusted;
+}
+
+double Verdict::with_witness(double lost) const {
+  constexpr double kLeastOfBoth = 0.002;  // what both sensors err by together: the map, the frame of the mosaic
+  constexpr double kContradicted = 0.2;   // P(lost) at least where the witness has the robot elsewhere
+  if (!witness_) return lost;
+  if (*witness_ > 1.0) return std::max(lost, kContradicted);
+  const double odds = lost / std::max(1e-9, 1.0 - lost) * (*witness_ / std::max(1e-9, 1.0 - *witness_));
+  return std::min(lost, std::max(kLeastOfBoth, odds / (1.0 + odds)));
 }
 
 double Verdict::blindness(bool has_said) const {

@@ -12,6 +12,7 @@ namespace {
 constexpr double kSurpriseWaits = 0.15;   // [s] between updates for a surprise
 constexpr double kElsewhere = 1e-4;       // of the mass, when somebody has told where the robot is
 constexpr double kDoubtful = 0.1;         // P(lost) of a robot that looks for better places
+constexpr double kTrustedShare = 0.5;     // of a place that a lost robot does not leave for a fix
 constexpr double kWorthFollowing = 2e-3;  // of the best mode's mass: a mode that becomes a track
 
 /// A track and a mode of the belief at the same place.
@@ -55,6 +56,32 @@ void Localizer::start_at(std::span<const BeliefMode> modes, const Pose2& odom_fr
   refiner_.reset();
   tracks_.start_at(modes, odom_from_robot);
   summarise_now();
+}
+
+void Localizer::take_fix(const PoseFix& fix) {
+  constexpr double kSureFix = 0.005;  // P(wrong) of one that a lost robot sets out from
+  if (!started_) return;
+  if (!fixes_) {
+    fixes_ = std::make_shared<FixEvidence>();
+    sensors_.add(fixes_);
+  }
+  fixes_->take(fix);
+  if (verdict_.keeps_its_place() || fix.p_wrong > kSureFix) return;
+  const auto best = map_from_robot(fix.odom_from_robot);
+  if (best && is_near(*best, fix.map_from_robot) && verdict_.share() > kTrustedShare) return;
+  const BeliefMode mode{fix.map_from_robot, fix.covariance, 1.0};
+  start_at(std::span{&mode, 1}, fix.odom_from_robot, fix.time);
+}
+
+std::optional<double> Localizer::witness() const {
+  constexpr double kNear = 0.5, kNearTurn = 12.0, kTelling = 0.05;  // [m], [deg], P(wrong)
+  if (!fixes_ || summary_.modes.empty()) return std::nullopt;
+  const auto fix = fixes_->at(cadence_.last_update(), odom_from_robot_);
+  if (!fix || fix->p_wrong > kTelling) return std::nullopt;
+  const Pose2& best = summary_.modes.front().map_from_robot;
+  const bool agrees = distance(best.position(), fix->map_from_robot.position()) < kNear &&
+                      std::abs((best.theta - fix->map_from_robot.theta).degrees()) < kNearTurn;
+  return agrees ? fix->p_wrong : 1.0 + fix->p_wrong;
 }
 
 void Localizer::uproot() {
@@ -261,7 +288,8 @@ void Localizer::judge(Update& update) {
                           .share = share_of_best(),
                           .way = update.motion.way,
                           .turn = update.motion.turn,
-                          .readings = update.choice.readings};
+                          .readings = update.choice.readings,
+                          .witness = witness()};
   verdict_.add(with_best_mode(evidence, summary_, update.predicted));
   if (verdict_.collapsed()) {
     const bool has_changed = belief_->flood();

@@ -81,6 +81,13 @@ std::optional<PoseWatch::Moment> PoseWatch::start_where_told(const BeliefMode& m
   return moment;
 }
 
+void PoseWatch::take_fix(PoseFix fix) {
+  const auto then = odometry_.at(fix.time);
+  if (!then) return;
+  fix.odom_from_robot = *then;
+  localizer_->take_fix(fix);
+}
+
 BeliefSummary PoseWatch::tell_belief(const Moment& moment, Time now) {
   belief_told_ = now;
   return carried_on(localizer_->summary(), inverse(localizer_->odom_from_robot()) * moment.odom_from_base);

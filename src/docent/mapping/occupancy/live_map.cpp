@@ -19,6 +19,7 @@ Result<void> LiveMapParams::validate() const {
   if (auto valid = sonar.validate(); !valid) return fail("sonar." + valid.error().message);
   if (auto valid = infrared.validate(); !valid) return fail("infrared." + valid.error().message);
   if (auto valid = touch.validate(); !valid) return fail("touch." + valid.error().message);
+  if (auto valid = sight.validate(); !valid) return fail("sight." + valid.error().message);
   return {};
 }
 
@@ -82,7 +83,9 @@ std::int8_t LiveMap::live_cell(std::size_t index) const {
   if (is_seen(index)) most = is_settled(index) ? kSettled : kPassing;
   for (const ConeLayer* layer : {&sonar_, &infrared_})
     if (layer->is_blocked(index)) most = std::max(most, layer->is_thing(index) ? kSettled : kPassing);
-  return touch_.is_blocked(index) ? kSettled : most;
+  const bool is_sighted = std::any_of(sights_.begin(), sights_.end(),
+                                      [index](const auto& sight) { return sight.second.is_blocked(index); });
+  return touch_.is_blocked(index) || is_sighted ? kSettled : most;
 }
 
 std::int8_t LiveMap::cell(std::size_t index) const {
@@ -134,6 +137,7 @@ void LiveMap::forget(Time now) {
   sonar_.forget(now);
   infrared_.forget(now);
   touch_.forget(now);
+  for (auto& [source, sight] : sights_) sight.forget(now);
   ++look_;
   for (int row = 0; row < static_.frame.rows; ++row) {
     for (int column = 0; column < static_.frame.columns; ++column) {
@@ -164,12 +168,23 @@ void LiveMap::add_touch(Point2 at, Point2 outward, std::span<const LaserLook> la
   touch_.feel(at, outward, now);
 }
 
+void LiveMap::add_lines(const std::string& source, Point2 robot, std::span<const Segment> lines,
+                        std::span<const LaserLook> lasers, Time now) {
+  constexpr std::size_t kMostSources = 8;
+  auto sight = sights_.find(source);
+  if (sight == sights_.end() && sights_.size() >= kMostSources) return;
+  if (sight == sights_.end()) sight = sights_.try_emplace(source, static_.frame, known_, params_.sight).first;
+  sight->second.see(robot, lines, lasers, now);
+}
+
 std::optional<CellRectangle> LiveMap::take_changes() {
-  for (const auto& changes : {sonar_.take_changes(), infrared_.take_changes(), touch_.take_changes()}) {
-    if (!changes) continue;
+  const auto add = [this](const std::optional<CellRectangle>& changes) {
+    if (!changes) return;
     widen(changes_, changes->low);
     widen(changes_, changes->high);
-  }
+  };
+  for (const auto& changes : {sonar_.take_changes(), infrared_.take_changes(), touch_.take_changes()}) add(changes);
+  for (auto& [source, sight] : sights_) add(sight.take_changes());
   return std::exchange(changes_, std::nullopt);
 }
 

@@ -28,7 +28,8 @@ struct RecordParams {
 bool is_picture(const transport::TopicInfo& topic) {
   const std::string_view name = topic.name;
   return name == topics::kCamera.name || name == topics::kSceneCamera.name || name == topics::kCameraImage.name ||
-         name == topics::kSceneCameraImage.name;
+         name == topics::kSceneCameraImage.name || name == topics::kDepthImage.name ||
+         name == topics::kCeilingImage.name;
 }
 
 class RecordModule final : public Module {

@@ -165,6 +165,10 @@ class LocalizeModule final : public Module {
                                               if (heard && state.carried_off > *heard) watch_.uproot();
                                               heard = state.carried_off;
                                             });
+    bus_.subscribe<docent_msgs::PoseFix>(topics::kPoseFix, [this](const auto& fix) {
+      watch_.take_fix(
+          {{fix.x, fix.y, Angle::radians(fix.theta)}, fix.covariance, {}, from_message(fix.header.stamp), fix.p_wrong});
+    });
     subscribe_initial_pose(bus_, context.museum.map, [this](const localization::BeliefMode& mode, Time stamp) {
       return start_where_told(mode, stamp);
     });

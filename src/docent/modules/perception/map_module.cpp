@@ -57,6 +57,7 @@ class MapModule final : public Module {
              [this](const mapping::ConeReading& reading) { live_.add_infrared(reading, laser_looks(), bus_.now()); });
     });
     bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, [this](const auto& tactile) { feel(tactile); });
+    bus_.subscribe<docent_msgs::ObstacleLines>(topics::kObstacleLines, [this](const auto& lines) { see(lines); });
     bus_.every(seconds(params.period), [this] { look(); });
     bus_.every(kFullMapPeriod, [this] {
       live_.forget(bus_.now());
@@ -150,6 +151,15 @@ class MapModule final : public Module {
                       bus_.now());
     }
     live_.stand(map_from_base->position(), outline_.empty() ? body_.radius : norm(outline_.nearest({})));
+  }
+
+  void see(const docent_msgs::ObstacleLines& message) {
+    const auto map_from_base = pose_.map_from_base_at(sensor_time_.of(message.source, message.header));
+    if (!pose_.localized() || !map_from_base) return;
+    std::vector<Segment> lines;
+    for (const auto& line : message.lines)
+      lines.push_back({*map_from_base * Point2{line.x1, line.y1}, *map_from_base * Point2{line.x2, line.y2}});
+    live_.add_lines(message.source, map_from_base->position(), lines, laser_looks(), bus_.now());
   }
 
   void publish_changes() {

@@ -11,9 +11,7 @@
 namespace docent::simulator {
 namespace {
 
-constexpr double kFar = 1e5;      // [m]
-constexpr double kLongest = 1e8;  // [s]
-
+constexpr double kFar = 1e5, kLongest = 1e8;  // [m], [s]
 constexpr std::array kFaults{"dead", "frozen", "half", "late", "short", "deaf", "storm"};
 constexpr std::array kLies{"units",  "silent", "sector", "too_near", "blind_near",
                            "offset", "scaled", "stale",  "looped"};
@@ -92,11 +90,11 @@ class EventReader {
     if (kind == "lie") return scanner_lie(body);
     if (kind == "transport") return read_transport(file_, body);
     if (kind == "charger") return read_charger(file_, body);
-    fault(
-        kind_at_,
-        "unknown kind '" + kind +
-            "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
-            "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger)");
+    if (kind == "eye") return read_eye_fault(file_, body);
+    fault(kind_at_, "unknown kind '" + kind +
+                        "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
+                        "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, "
+                        "transport, charger, eye)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -240,8 +238,10 @@ class EventReader {
            {{"at", into(event.at)},
             {"radius", into(event.radius, 0.05, 2.0)},
             {"height", into(event.height, 0.05, 3.0)},
+            {"bottom", into(event.bottom, 0.0, 3.0)},
             {"for", into(event.duration, 0.0, kLongest)}},
            {"at"});
+    if (!(event.bottom < event.height)) fault(node, "'bottom' must be below 'height'");
     return event;
   }
   [[nodiscard]] ClosedPassage closed(const YAML::Node& node) const {
@@ -420,7 +420,7 @@ Result<Scenario> read_scenario(const YamlFile& file) {
         throw YamlFault{file.fault(entry.first, "unknown key '" + key + "' (known: build, events)")};
     }
     const YAML::Node events = root["events"];
-    if (!events.IsDefined() || !events.IsSequence()) throw YamlFault{file.fault(root, "'events' must be a list")};
+    if (!events.IsSequence()) throw YamlFault{file.fault(root, "'events' must be a list")};
     EventReader reader{file};
     for (const auto& node : events) scenario.events.push_back(reader.read(node));
   } catch (const YamlFault& fault) {

@@ -11,6 +11,7 @@
 #include "docent/geometry/pose2.h"
 #include "docent/simulator/scenario/build_errors.h"
 #include "docent/simulator/scenario/charger_event.h"
+#include "docent/simulator/scenario/eye_event.h"
 #include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -69,6 +70,7 @@ struct Stool {
   Point2 at{};
   double radius = 0.2;    ///< [m]
   double height = 0.45;   ///< [m]
+  double bottom = 0.0;    ///< [m] < height; above 0 it hangs, as a table's top does, and no sensor but an eye meets it
   double duration = 0.0;  ///< [s]; 0: to the end
 };
 /// A barrier between two points.
@@ -168,7 +170,7 @@ struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
                LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport,
-               ChargerFault>
+               ChargerFault, EyeFault>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -182,7 +184,7 @@ struct Scenario {
 
 /// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
 /// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
-/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger.
+/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger, eye.
 /// With `during: PHASE` it waits for that
 /// phase of the mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);

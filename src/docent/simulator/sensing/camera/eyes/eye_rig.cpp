@@ -86,12 +86,13 @@ EyeRig told_rig(const RigOptions& options) {
   front.brown = {-0.11, 0.03, -0.0003, 0.0005, 0.0};
   LensModel depth;
   depth.focal_x = depth.focal_y = 290.0;  // 58 degrees; its driver hands out undistorted pictures
-  return {
-      {scaled(up, options), {.x = 0.10, .y = 0.0, .z = 1.25, .pan = 0.0, .tilt = 90.0 * kRadiansOfDegree, .roll = 0.0}},
-      {scaled(front, options),
-       {.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = -28.0 * kRadiansOfDegree, .roll = 0.0}},
-      {scaled(depth, options),
-       {.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = -30.0 * kRadiansOfDegree, .roll = 0.0}}};
+  const auto degrees = [](double angle) { return angle * kRadiansOfDegree; };
+  const CameraMount up_mount{.x = 0.10, .y = 0.0, .z = 1.25, .pan = 0.0, .tilt = degrees(90.0), .roll = 0.0};
+  const CameraMount front_mount{.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = degrees(-28.0), .roll = 0.0};
+  const CameraMount depth_mount{.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = degrees(-30.0), .roll = 0.0};
+  return {{scaled(up, options), options.up_mount.value_or(up_mount)},
+          {scaled(front, options), front_mount},
+          {scaled(depth, options), options.depth_mount.value_or(depth_mount)}};
 }
 
 EyeRig true_rig(const EyeRig& told, Rng rng) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "docent/base/random.h"
@@ -20,9 +21,10 @@ struct EyeRig {
 };
 
 struct RigOptions {
-  int width = 320;       ///< [pixels] of all pictures
-  int height = 240;      ///< [pixels]
-  bool fisheye = false;  ///< the upward one is; otherwise a pinhole with distortion
+  std::optional<CameraMount> up_mount, depth_mount;  ///< as the robot is told; without: as it was drawn first
+  int width = 320;                                   ///< [pixels] of all pictures
+  int height = 240;                                  ///< [pixels]
+  bool fisheye = false;                              ///< the upward one is; otherwise a pinhole with distortion
 };
 
 /// As the drawings of the robot have it and a calibration found it.
