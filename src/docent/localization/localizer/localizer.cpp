@@ -74,7 +74,7 @@ void Localizer::take_fix(const PoseFix& fix) {
 }
 
 std::optional<double> Localizer::witness() const {
-  constexpr double kNear = 0.5, kNearTurn = 12.0, kTelling = 0.05;  // [m], [deg], P(wrong)
+  constexpr double kNear = 0.5, kNearTurn = 12.0, kTelling = 0.01;  // [m], [deg], P(wrong)
   if (!fixes_ || summary_.modes.empty()) return std::nullopt;
   const auto fix = fixes_->at(cadence_.last_update(), odom_from_robot_);
   if (!fix || fix->p_wrong > kTelling) return std::nullopt;

@@ -15,6 +15,8 @@ constexpr double kSameTurn = 12.0;     // [deg]
 constexpr double kBest = 0.95;         // correlation that the right pose reaches; better ones cost nothing less
 constexpr double kHopeless = 12.0;     // [nat] behind the best: a way that is followed no longer
 constexpr double kWorthFitting = 6.0;  // [nat] likewise, that is fitted between views
+constexpr double kNews = 0.05, kNewsTurn = 3.0;  // [m], [deg] that make another picture
+constexpr int kSameAgain = 10;                   // pictures of one place, then one is looked at
 constexpr double kClosestFit = 1.0 - 1e-6;
 
 bool is_same(const Pose2& a, const Pose2& b) {
@@ -42,7 +44,8 @@ Result<void> CeilingLocalizerParams::validate() const {
   if (!(samples > 1 && few > 1)) return fail("ceiling.samples and few must be > 1");
   if (!(steepest > 0.0)) return fail("ceiling.steepest must be > 0");
   if (!(search_step > 0.05 && search_turn > 0.5)) return fail("ceiling.search_step must be > 0.05, search_turn > 0.5");
-  if (!(most_found > 0 && most_ways > 1)) return fail("ceiling.most_found must be > 0, most_ways > 1");
+  if (!(most_found > 0 && most_fitted > 0 && most_ways > 1))
+    return fail("ceiling.most_found and most_fitted must be > 0, most_ways > 1");
   if (!(views > 0 && views <= 100 && fewest > 0 && fewest <= views))
     return fail("ceiling.views must be 1..100, fewest 1..views");
   if (!(spacing > 0.0 && turned > 0.0)) return fail("ceiling.spacing and turned must be > 0");
@@ -73,6 +76,7 @@ void CeilingLocalizer::forget() {
   views_.clear();
   ways_.clear();
   odom_.reset();
+  last_.reset();
   since_search_ = unexplained_ = 0;
 }
 
@@ -95,8 +99,17 @@ bool CeilingLocalizer::is_new_view(const Pose2& odom_from_robot) const {
 }
 
 std::optional<CeilingLocalizer::Fix> CeilingLocalizer::see(const GrayPicture& picture, const Pose2& odom_from_robot) {
-  const std::span<const CeilingSample> samples = sampler_.take(picture);
   const Pose2 moved = odom_ ? inverse(*odom_) * odom_from_robot : Pose2{};
+  const bool is_news = !odom_ || norm(moved.position()) > kNews || std::abs(moved.theta.degrees()) > kNewsTurn;
+  if (!is_news && ++same_ < kSameAgain) return last_;
+  same_ = 0;
+  last_ = look(picture, odom_from_robot, moved);
+  return last_;
+}
+
+std::optional<CeilingLocalizer::Fix> CeilingLocalizer::look(const GrayPicture& picture, const Pose2& odom_from_robot,
+                                                            const Pose2& moved) {
+  const std::span<const CeilingSample> samples = sampler_.take(picture);
   odom_ = odom_from_robot;
   constexpr std::size_t kFewestSamples = 24;
   if (sampler_.contrast() < params_.least_contrast || samples.size() < kFewestSamples) {
@@ -154,7 +167,7 @@ void CeilingLocalizer::search(std::span<const CeilingSample> samples, const Pose
   since_search_ = 0;
   const std::vector<CeilingSample> few = few_of(samples, params_.few);
   std::vector<Pose2> starts;
-  for (const auto& [correlation, place] : search_.best(few, static_cast<std::size_t>(40 * params_.most_found))) {
+  for (const auto& [correlation, place] : search_.best(few, static_cast<std::size_t>(20 * params_.most_found))) {
     if (static_cast<int>(starts.size()) >= params_.most_found) break;
     const bool is_known = std::any_of(starts.begin(), starts.end(), [&, &at = place](const Pose2& start) {
       return distance(start.position(), at.position()) < 2.0 * kSamePlace &&
@@ -162,8 +175,15 @@ void CeilingLocalizer::search(std::span<const CeilingSample> samples, const Pose
     });
     if (!is_known) starts.push_back(place);
   }
-  for (const Pose2& start : starts) {
-    const auto fit = fit_pose(start, levels_, sampler_.camera().mount, samples, fit_params_);
+  // The places that a few samples fit best, then those that all fit.
+  std::vector<PoseFit> fits;
+  for (const Pose2& start : starts)
+    if (const auto fit = fit_pose(start, levels_, sampler_.camera().mount, few, fit_params_)) fits.push_back(*fit);
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const PoseFit& a, const PoseFit& b) { return a.correlation > b.correlation; });
+  if (static_cast<int>(fits.size()) > params_.most_fitted) fits.resize(static_cast<std::size_t>(params_.most_fitted));
+  for (const PoseFit& rough : fits) {
+    const auto fit = fit_pose(rough.map_from_robot, levels_, sampler_.camera().mount, samples, fit_params_);
     if (fit && fit->correlation > 0.5 * params_.good) take_in(*fit, odom_from_robot);
   }
   prune();

@@ -17,11 +17,12 @@ namespace docent::vision {
 
 struct CeilingLocalizerParams {
   int samples = 240;         ///< of a picture that a pose is fitted by, > 1
-  int few = 64;              ///< of these that the whole ceiling is searched by, > 1
+  int few = 80;              ///< of these that the whole ceiling is searched by, > 1
   double steepest = 1.2;     ///< slope of the farthest looks, > 0
   double search_step = 0.3;  ///< [m] > 0: from place to place of a search; the coarsest blur is as wide
   double search_turn = 8.0;  ///< [deg] > 0: from heading to heading
-  int most_found = 40;       ///< places that a search may find, > 0
+  int most_found = 160;      ///< places of a search that are fitted by the few, > 0, and
+  int most_fitted = 32;      ///< of these by all, > 0
   int most_ways = 24;        ///< ways that are followed, > 1
   int views = 8;             ///< pictures that ways are compared by, > 0
   double spacing = 0.35;     ///< [m] from one view to the next, > 0, or
@@ -33,7 +34,7 @@ struct CeilingLocalizerParams {
   double good_width = 0.04;  ///< what its odds grow e-fold by
   int fewest = 3;            ///< views before it may be sure
   double sure = 0.01;        ///< P(wrong) below which it searches rarely, 0 .. 1
-  int search_every = 3;      ///< pictures from search to search while it is not sure, and
+  int search_every = 4;      ///< pictures from search to search while it is not sure, and
   int search_rarely = 60;    ///< while it is
   int give_up = 4;           ///< views in a row that no way explains: it begins anew
   double least_contrast = 0.015;  ///< of a picture, from which it says anything
@@ -57,8 +58,8 @@ class CeilingLocalizer {
     double p_wrong = 1.0;
     double correlation = 0.0;  ///< of the last picture
   };
-  /// A picture, and where odometry had the robot then. Nothing where no place is known, or the picture says nothing.
-  /// O(ways * samples), and where it searches O(places * few samples).
+  /// A picture, and where odometry had the robot then. Of a robot that stands most pictures are no news. Nothing where
+  /// no place is known, or the picture says nothing. O(ways * samples), and where it searches O(places * few samples).
   std::optional<Fix> see(const GrayPicture& picture, const Pose2& odom_from_robot);
   void forget();
   /// Of the last picture, 0 .. 0.5.
@@ -83,6 +84,7 @@ class CeilingLocalizer {
     double correlation = 0.0;  ///< 0: it does not fit
     double nats = 0.0;
   };
+  std::optional<Fix> look(const GrayPicture& picture, const Pose2& odom_from_robot, const Pose2& moved);
   [[nodiscard]] Fitted fitted(const Pose2& near, std::span<const CeilingSample> samples) const;
   [[nodiscard]] double nats(double correlation) const;
   [[nodiscard]] bool is_new_view(const Pose2& odom_from_robot) const;
@@ -100,6 +102,8 @@ class CeilingLocalizer {
   std::deque<View> views_;
   std::vector<Way> ways_;  ///< by rising cost
   std::optional<Pose2> odom_;
+  std::optional<Fix> last_;
+  int same_ = 0;          ///< pictures of one place that were not looked at
   int since_search_ = 0;  ///< pictures
   int unexplained_ = 0;   ///< views in a row
 };
