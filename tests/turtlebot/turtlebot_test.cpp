@@ -141,7 +141,10 @@ TEST_F(TurtlebotTest, AnObstacleThatItTouchesAndACliffStopIt) {
   begin(wire_of(true, Rmw::cyclonedds), {7.0, 3.0, Angle::degrees(90.0)}, false);
   ASSERT_TRUE(eventually([&] { return watch->look().localized; }, 90s)) << told();
   watch->ask_for("exhibit", "particle-trap");
-  const auto drives = [&] { return speed() > 0.2; };
+  // Straight on: who turns misses what is put before it.
+  const auto drives = [&] {
+    return robot->with_body([](Body& body) { return body.linear() > 0.2 && std::abs(body.angular()) < 0.1; });
+  };
   ASSERT_TRUE(eventually(drives, 60s)) << told();
   // A low box 0.4 m ahead, which no scanner sees.
   robot->with_body([](Body& body) { body.boxes.push_back({body.map_from_robot() * Point2{0.45, 0.0}, 0.05}); });
@@ -204,11 +207,11 @@ TEST_F(TurtlebotTest, ABaseWithoutTheActionsIsNamed) {
   auto wire = wire_of(true, Rmw::cyclonedds);
   wire.offers_actions = false;
   begin(wire, kInDock, true);
-  ASSERT_TRUE(eventually([&] { return watch->look().localized; }, 90s)) << told();
-  watch->ask_for("exhibit", "particle-trap");
+  // It does not know its place before it has moved, and would move to find it.
   EXPECT_TRUE(eventually(
-      [&] { return watch->look().health["executive"].health.reason == "the base offers no action /undock"; }, 30s))
+      [&] { return watch->look().health["executive"].health.reason == "the base offers no action /undock"; }, 90s))
       << told();
+  std::this_thread::sleep_for(5s);
   EXPECT_NEAR(place().y, kInDock.y, 0.02) << "it is not torn from its dock";
 }
 
