@@ -11,6 +11,7 @@ FIRST = 1_700_000_000 * 10**9  # [ns]
 SPLIT_M, SPLIT_RAD = 0.012, 0.01  # between two scans: odometry is interpolated
 POINT_M = 0.01  # of a beam's end on the robot
 STAMP_S = 0.002
+NEAREST = 0.05  # [m] range_min of the scans: nearer is no reading
 
 
 def boxes(rng):
@@ -143,7 +144,7 @@ def told_apart(ranges, truth):
 
 def fingerprint(ranges):
     """The same in any order of the beams."""
-    return round(math.fsum(r for r in ranges if 0 < r < 1e5), 6)
+    return round(math.fsum(r for r in ranges if NEAREST <= r < 1e5), 6)
 
 
 def ticks(rng, seconds, rate):
@@ -168,7 +169,7 @@ def recorded(drive, scanners, rng, topics=("/scan",), odometry="/odom", parent="
         late = rng.uniform(0.1, 0.2)
         for t in ticks(rng, drive.seconds - 0.3, each):
             t = round(t + late, 3)
-            messages.append((topic, kinds()[0], filed(t, 3 * 10**6), Scan(stamp(t), scanner.frame, scanner.first, scanner.step, scanner.look(drive, t), 0.05, 12.0)))
+            messages.append((topic, kinds()[0], filed(t, 3 * 10**6), Scan(stamp(t), scanner.frame, scanner.first, scanner.step, scanner.look(drive, t), NEAREST, 12.0)))
     return sorted(messages, key=lambda m: m[2])
 
 

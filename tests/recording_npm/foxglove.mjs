@@ -1,14 +1,22 @@
-// node foxglove.mjs DOCENT MUSEUM: opens a running robot as Foxglove and Lichtblick do, with npm's @foxglove/ws-protocol, and
-// decodes what it shows with their decoders.
+// node foxglove.mjs DOCENT MUSEUM: opens a running robot as Foxglove and Lichtblick do, with npm's @foxglove/ws-protocol in the
+// version of each, and decodes what it shows with the decoders of each.
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import protocol from "@foxglove/ws-protocol";
+import lichtblickRosmsg from "@lichtblick/rosmsg";
+import lichtblickSerialization from "@lichtblick/rosmsg2-serialization";
+import lichtblickProtocol from "lichtblick-ws-protocol";
 import { spawn } from "node:child_process";
 import { createServer } from "node:net";
 import assert from "node:assert/strict";
 import WebSocket from "ws";
 
 const { FoxgloveClient } = protocol;
+const [OLDER, NEWER] = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
+// What each viewer opens and reads with: Lichtblick's are the packages and the names of its FoxgloveWebSocketPlayer.
+const FOXGLOVE = { Client: FoxgloveClient, names: [FoxgloveClient.SUPPORTED_SUBPROTOCOL], parse, MessageReader };
+const LICHTBLICK = { Client: lichtblickProtocol.FoxgloveClient, names: [lichtblickProtocol.FoxgloveClient.SUPPORTED_SUBPROTOCOL, NEWER],
+  parse: lichtblickRosmsg.parse, MessageReader: lichtblickSerialization.MessageReader };
 const [docent, museum] = process.argv.slice(2);
 const PATIENCE = 20000; // [ms]
 let passed = 0;
@@ -50,9 +58,9 @@ await until("the page answers", () => {
 });
 
 /** A client with its channels and what it has got, by topic. */
-function connect(options = {}) {
-  const socket = new WebSocket(url, [FoxgloveClient.SUPPORTED_SUBPROTOCOL], options);
-  const client = new FoxgloveClient({ ws: socket });
+function connect(viewer = FOXGLOVE) {
+  const socket = new WebSocket(url, viewer.names);
+  const client = new viewer.Client({ ws: socket });
   const seen = { socket, client, channels: new Map(), topics: new Map(), messages: {}, statuses: [], info: null, error: null };
   client.on("serverInfo", (info) => (seen.info = info));
   client.on("status", (status) => seen.statuses.push(status));
@@ -65,7 +73,7 @@ function connect(options = {}) {
   seen.subscribe = (topic) => {
     const channel = seen.channels.get(topic);
     const id = client.subscribe(channel.id);
-    seen.topics.set(id, { topic, reader: new MessageReader(parse(channel.schema, { ros2: true })) });
+    seen.topics.set(id, { topic, reader: new viewer.MessageReader(viewer.parse(channel.schema, { ros2: true })) });
     return id;
   };
   seen.newest = (topic, good = () => true) =>
@@ -136,9 +144,38 @@ await check("a second client gets the map, too", async () => {
   await second.newest("/map");
   second.client.close();
 });
+await check("Lichtblick's own packages read every topic", async () => {
+  const viewer = connect(LICHTBLICK);
+  await until("channels", () => viewer.channels.size > 0);
+  assert.deepEqual([...viewer.channels.keys()].sort(), [...first.channels.keys()].sort());
+  for (const topic of viewer.channels.keys()) viewer.subscribe(topic);
+  const scan = await viewer.newest("/scan_front");
+  assert.equal(scan.ranges.length, 180);
+  const map = await viewer.newest("/map");
+  assert.equal(map.data.length, map.info.width * map.info.height);
+  for (const topic of ["/odom", "/tf", "/tf_static", "/amcl_pose", "/docent/belief", "/docent/health", "/camera/image/compressed", "/docent/museum_markers"])
+    await viewer.newest(topic);
+  assert.equal(viewer.error, null);
+  assert.deepEqual(viewer.statuses, []);
+  viewer.client.close();
+});
+await check("a line by the newer name alone says and shows the same", async () => {
+  // Neither client opens by that name alone; its messages are those of the older one.
+  const socket = new WebSocket(url, [NEWER]);
+  const heard = { texts: [], messages: 0 };
+  socket.on("message", (data, isBinary) => {
+    if (isBinary) heard.messages += data[0] === 1 ? 1 : 0;
+    else heard.texts.push(JSON.parse(data));
+  });
+  const channels = await until("channels", () => heard.texts.find(({ op }) => op === "advertise")?.channels);
+  assert.equal(heard.texts[0].op, "serverInfo");
+  const { id } = channels.find(({ topic }) => topic === "/odom");
+  socket.send(JSON.stringify({ op: "subscribe", subscriptions: [{ id: 7, channelId: id }] }));
+  await until("odometry", () => heard.messages > 3);
+  socket.close();
+});
 await check("both names of the protocol are known, the client's first counts, and no other is", async () => {
-  const [older, newer] = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
-  for (const [offered, wanted] of [[[older], older], [[newer], newer], [[older, newer], older], [["mqtt", newer, older], newer], [["mqtt"], null]]) {
+  for (const [offered, wanted] of [[[OLDER], OLDER], [[NEWER], NEWER], [[OLDER, NEWER], OLDER], [["mqtt", NEWER, OLDER], NEWER], [["mqtt"], null]]) {
     const got = await new Promise((resolve) => {
       const socket = new WebSocket(url, offered);
       socket.once("open", () => { resolve(socket.protocol); socket.close(); });

@@ -18,6 +18,7 @@ constexpr double kMayBack = 0.25;    // [m] that it backs off at most
 constexpr double kSeesDock = 1.2;    // [m]
 constexpr double kReach = 12.0;      // [m] of the scanner
 constexpr double kNearest = 0.15;    // [m]
+constexpr double kPressed = 0.01;    // [m] that a bumper gives way
 
 double toward(double now, double wanted, double most) { return now + std::clamp(wanted - now, -most, most); }
 double degrees(double value) { return value * std::numbers::pi / 180.0; }
@@ -60,7 +61,7 @@ bool Body::undock() {
 
 bool Body::is_free(Point2 at) const { return !settings_.world.is_occupied(settings_.world.frame.cell_at(at)); }
 
-std::vector<double> Body::touches() const {
+std::vector<double> Body::touches(double within) const {
   std::vector<double> bearings;
   const auto touch = [&](Point2 at) {
     const Point2 seen = inverse(truth_) * at;
@@ -68,12 +69,12 @@ std::vector<double> Body::touches() const {
   };
   for (int i = 0; i < 72; ++i) {
     const double bearing = degrees(5.0 * i);
-    const Point2 rim = truth_ * Point2{(kRadius + 0.01) * std::cos(bearing), (kRadius + 0.01) * std::sin(bearing)};
+    const Point2 rim = truth_ * Point2{(kRadius + within) * std::cos(bearing), (kRadius + within) * std::sin(bearing)};
     if (!is_free(rim)) touch(rim);
   }
   for (const Low& box : boxes) {
     const double apart = std::hypot(box.middle.x - truth_.x, box.middle.y - truth_.y);
-    if (apart < box.radius + kRadius + 0.005) touch(box.middle);
+    if (apart < box.radius + kRadius + within) touch(box.middle);
   }
   return bearings;
 }
@@ -108,7 +109,7 @@ std::vector<Body::Hazard> Body::hazards() const {
     return all;
   }
   constexpr std::array kBumpers{"bump_right", "bump_front_right", "bump_front_center", "bump_front_left", "bump_left"};
-  for (const double bearing : touches()) {
+  for (const double bearing : touches(kPressed)) {
     if (std::abs(bearing) > degrees(95.0)) continue;  // it has no bumper behind
     const auto zone = std::clamp(static_cast<int>(std::floor((bearing + degrees(90.0)) / degrees(36.0))), 0, 4);
     const std::string frame = kBumpers[static_cast<std::size_t>(zone)];
@@ -132,8 +133,8 @@ void Body::steer(double linear, double angular, double dt) {
   };
   move(truth_, 1.0);
   if (behaviour_ != Behaviour::dock && behaviour_ != Behaviour::undock) {
-    for (const double bearing : touches()) {
-      if (linear_ * std::cos(bearing) > 0.0) {  // against it
+    for (const double bearing : touches(0.0)) {
+      if (linear_ * std::cos(bearing) > 0.0) {  // against it, with its bumpers pressed in
         truth_.x = before.x;
         truth_.y = before.y;
         linear_ = 0.0;
@@ -201,15 +202,19 @@ void Body::step(double dt) {
     linear_ = angular_ = 0.0;
     return;
   }
-  const auto is_ahead = [&] {
-    const auto felt = touches();
-    return std::any_of(felt.begin(), felt.end(), [](double bearing) { return std::abs(bearing) < degrees(95.0); }) ||
-           !cliffs().empty();
-  };
-  if (behaviour_ == Behaviour::none && linear_ >= 0.0 && wanted_linear_ > 0.0 && since_command_ < kObeys &&
-      is_ahead()) {
-    behaviour_ = Behaviour::reflex;
-    left_ = 0.5;
+  // Its own reflex asks nobody: whoever hears the bumpers may have stopped it already.
+  const bool comes_nearer = linear_ > 0.0 || (linear_ == 0.0 && wanted_linear_ > 0.0 && since_command_ < kObeys);
+  if (behaviour_ == Behaviour::none && comes_nearer) {
+    const auto felt = touches(kPressed);
+    const bool is_edge = !cliffs().empty();
+    const bool is_bump =
+        std::any_of(felt.begin(), felt.end(), [](double bearing) { return std::abs(bearing) < degrees(95.0); });
+    if (is_bump || is_edge) {
+      bumps += is_bump ? 1 : 0;
+      edges += is_edge ? 1 : 0;
+      behaviour_ = Behaviour::reflex;
+      left_ = 0.5;
+    }
   }
   if (behaviour_ != Behaviour::none) return behave(dt);
   const bool obeys = since_command_ < kObeys;

@@ -58,6 +58,8 @@ class Body {
   bool is_lifted = false;
   std::vector<Low> boxes;    ///< that it bumps into
   std::vector<Low> holes;    ///< that its cliff sensors find
+  int bumps = 0;             ///< that it has met something and backs off by itself
+  int edges = 0;             ///< likewise a cliff
   double commanded_s = 0.0;  ///< [s] that it was told to move while it moved by itself
 
  private:
@@ -66,7 +68,8 @@ class Body {
   bool drive_to(Point2 place, double speed, double dt);
   bool turn_to(Angle heading, double dt);
   [[nodiscard]] bool is_free(Point2 at) const;
-  [[nodiscard]] std::vector<double> touches() const;  ///< [rad] bearings
+  /// [rad] bearings of what is nearer to its rim than that [m].
+  [[nodiscard]] std::vector<double> touches(double within) const;
   [[nodiscard]] std::vector<std::string> cliffs() const;
 
   Settings settings_;

@@ -141,18 +141,15 @@ TEST_F(TurtlebotTest, AnObstacleThatItTouchesAndACliffStopIt) {
   begin(wire_of(true, Rmw::cyclonedds), {7.0, 3.0, Angle::degrees(90.0)}, false);
   ASSERT_TRUE(eventually([&] { return watch->look().localized; }, 90s)) << told();
   watch->ask_for("exhibit", "particle-trap");
-  const auto drives = [&] { return speed() > 0.2; };
+  // Straight on: who turns misses what is put before it.
+  const auto drives = [&] {
+    return robot->with_body([](Body& body) { return body.linear() > 0.2 && std::abs(body.angular()) < 0.1; });
+  };
   ASSERT_TRUE(eventually(drives, 60s)) << told();
   // A low box 0.4 m ahead, which no scanner sees.
   robot->with_body([](Body& body) { body.boxes.push_back({body.map_from_robot() * Point2{0.45, 0.0}, 0.05}); });
-  const auto is_touching = [&] {
-    return robot->with_body([](Body& body) {
-      for (const auto& hazard : body.hazards())
-        if (hazard.type == 1) return true;
-      return false;
-    });
-  };
-  ASSERT_TRUE(eventually(is_touching, 10s)) << told();
+  // It backs off by itself at once, so its bumpers are pressed for a moment only.
+  ASSERT_TRUE(eventually([&] { return robot->with_body([](Body& body) { return body.bumps > 0; }); }, 10s)) << told();
   EXPECT_TRUE(eventually([&] { return std::abs(speed()) < 0.11; }, 1s));
   const Point2 box = robot->with_body([](Body& body) { return body.boxes.back().middle; });
   const auto apart = [&] { return std::hypot(place().x - box.x, place().y - box.y); };
@@ -162,14 +159,7 @@ TEST_F(TurtlebotTest, AnObstacleThatItTouchesAndACliffStopIt) {
 
   ASSERT_TRUE(eventually(drives, 60s)) << told();
   robot->with_body([](Body& body) { body.holes.push_back({body.map_from_robot() * Point2{0.75, 0.0}, 0.25}); });
-  const auto is_at_edge = [&] {
-    return robot->with_body([](Body& body) {
-      for (const auto& hazard : body.hazards())
-        if (hazard.type == 2) return true;
-      return false;
-    });
-  };
-  ASSERT_TRUE(eventually(is_at_edge, 20s)) << told();
+  ASSERT_TRUE(eventually([&] { return robot->with_body([](Body& body) { return body.edges > 0; }); }, 20s)) << told();
   const Point2 hole = robot->with_body([](Body& body) { return body.holes.back().middle; });
   double nearest = 10.0;
   const auto watched = std::chrono::steady_clock::now();
@@ -204,11 +194,11 @@ TEST_F(TurtlebotTest, ABaseWithoutTheActionsIsNamed) {
   auto wire = wire_of(true, Rmw::cyclonedds);
   wire.offers_actions = false;
   begin(wire, kInDock, true);
-  ASSERT_TRUE(eventually([&] { return watch->look().localized; }, 90s)) << told();
-  watch->ask_for("exhibit", "particle-trap");
+  // It does not know its place before it has moved, and would move to find it.
   EXPECT_TRUE(eventually(
-      [&] { return watch->look().health["executive"].health.reason == "the base offers no action /undock"; }, 30s))
+      [&] { return watch->look().health["executive"].health.reason == "the base offers no action /undock"; }, 90s))
       << told();
+  std::this_thread::sleep_for(5s);
   EXPECT_NEAR(place().y, kInDock.y, 0.02) << "it is not torn from its dock";
 }
 

@@ -74,8 +74,7 @@ class RosLaserLogBuilder {
   void use_odometry();
   /// What no base can have driven, as when a driver begins anew at zero.
   void take_out_jumps();
-  /// @param ahead  of the clock of odometry before that of the file
-  void use_scans(const std::string& topic, Duration ahead);
+  void use_scans(const std::string& topic);
   void finish_pings();
   /// The stamps of a topic, mended and without steps back.
   [[nodiscard]] std::vector<Time> followed(const std::string& name, const std::vector<RecordedStamp>& stamps);
@@ -90,9 +89,9 @@ class RosLaserLogBuilder {
   RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
   ChosenTopics chosen_;
   std::string base_frame_;
-  std::int64_t count_ = 0;                ///< of messages that have a time
-  Duration odometry_ahead_{};             ///< of its clock before that of the file
-  std::vector<std::string> scan_frames_;  ///< [scans of the log]
+  std::int64_t count_ = 0;                     ///< of messages that have a time
+  std::vector<RecordedStamp> odometry_clock_;  ///< as followed
+  std::vector<std::string> scan_frames_;       ///< [scans of the log]
   LaserLog log_;
 };
 

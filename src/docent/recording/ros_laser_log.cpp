@@ -32,14 +32,9 @@ sensor_msgs::LaserScan in_order(sensor_msgs::LaserScan scan) {
   return scan;
 }
 
-/// Of the stamps' clock before that of the file, in the median.
-Duration ahead_of(const std::vector<Time>& times, const std::vector<RecordedStamp>& stamps) {
-  if (times.empty()) return {};
-  std::vector<Duration> ahead;
-  for (std::size_t i = 0; i < times.size(); ++i) ahead.push_back(times[i] - stamps[i].recorded);
-  const auto middle = ahead.begin() + static_cast<std::ptrdiff_t>(ahead.size() / 2);
-  std::nth_element(ahead.begin(), middle, ahead.end());
-  return *middle;
+std::vector<RecordedStamp> with_times(const std::vector<Time>& times, std::vector<RecordedStamp> stamps) {
+  for (std::size_t i = 0; i < times.size(); ++i) stamps[i].stamp = times[i];
+  return stamps;
 }
 
 bool is_same(const LoggedOdometry& a, const LoggedOdometry& b) {
@@ -303,7 +298,7 @@ void RosLaserLogBuilder::use_odometry() {
   std::vector<RecordedStamp> stamps;
   for (const Odometry& one : of.readings) stamps.push_back(one.stamp);
   const std::vector<Time> times = followed(name, stamps);
-  odometry_ahead_ = ahead_of(times, stamps);
+  odometry_clock_ = with_times(times, stamps);
   for (std::size_t i = 0; i < of.readings.size(); ++i) {
     of.readings[i].reading.time = times[i];
     log_.odometry.push_back(of.readings[i].reading);
@@ -335,14 +330,14 @@ void RosLaserLogBuilder::take_out_jumps() {
   if (std::string note = unbroken.note(); !note.empty()) log_.notes.push_back(std::move(note));
 }
 
-void RosLaserLogBuilder::use_scans(const std::string& topic, Duration ahead) {
+void RosLaserLogBuilder::use_scans(const std::string& topic) {
   std::vector<Scan>& scans = scans_[topic];
   put_in_order(topic, scans);
   std::vector<RecordedStamp> stamps;
   for (const Scan& one : scans) stamps.push_back(one.stamp);
   std::vector<Time> times = followed("the scans of " + topic, stamps);
-  const Duration apart = ahead_of(times, stamps) - ahead;
-  if (!log_.odometry.empty() && (apart > kApart || apart < -kApart)) {
+  const Duration apart = clock_ahead(with_times(times, stamps), odometry_clock_);
+  if (apart > kApart || apart < -kApart) {
     for (Time& time : times) time = time - apart;
     log_.notes.push_back("the scans of " + topic + " are stamped by a clock that is " +
                          std::to_string(std::llround(to_seconds(apart))) +
@@ -395,7 +390,7 @@ Result<LaserLog> RosLaserLogBuilder::finish() {
     log_.notes.emplace_back("times go by the order of the messages alone, 0.02 s from one to the next");
   }
   use_odometry();
-  for (const std::string& topic : chosen_.scans) use_scans(topic, odometry_ahead_);
+  for (const std::string& topic : chosen_.scans) use_scans(topic);
   if (const auto judged = ranges_.judge(log_.notes); !judged) return tl::unexpected<Error>(judged.error());
   std::vector<std::size_t> order(log_.scans.size());
   std::iota(order.begin(), order.end(), 0);

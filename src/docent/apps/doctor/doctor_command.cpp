@@ -11,8 +11,10 @@
 #include "docent/apps/doctor/sensors.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/grid/map_classes.h"
 #include "docent/modules/drive/plan_module.h"
 #include "docent/modules/drive/robot_module.h"
+#include "docent/museum/heading_notes.h"
 #include "docent/robot/body_notes.h"
 #include "docent/task_control/golex/executive_params.h"
 #include "docent/transport/dds_bus.h"
@@ -64,7 +66,13 @@ std::optional<robot::RobotConfig> look_at_files(const Options& options, std::vec
                 options.deployment.museum.c_str(), museum->exhibits.size(), museum->hazards.size(),
                 frame.columns * frame.resolution, frame.rows * frame.resolution, museum->charger ? "" : ", no charger");
   all.push_back({"files", "museum", Verdict::fine, text});
+  const MapClasses classes = classes_of(museum->map);
+  all.push_back({"files", "map", Verdict::fine, "was read as " + classes.text()});
+  if (const std::string warning = classes.warning(); !warning.empty())
+    all.push_back({"files", "map", Verdict::note, warning});
   for (const std::string& note : museum->map_notes) all.push_back({"files", "map", Verdict::note, note});
+  for (const std::string& note : museum::heading_notes(*museum))
+    all.push_back({"files", "museum", Verdict::note, note});
   return std::move(*config);
 }
 
@@ -105,10 +113,8 @@ void examine(const Options& options) {
     for (Finding& finding : findings_of_computer(demand)) all.push_back(std::move(finding));
   }
   std::fputs((options.as_json ? json_of(all) : page_of(all)).c_str(), stdout);
-  if (worst_of(all) == Verdict::wrong) {
-    std::fflush(stdout);
-    throw CLI::RuntimeError{1};
-  }
+  std::fflush(stdout);
+  if (worst_of(all) == Verdict::wrong) throw CommandFailed{"", 1};
 }
 
 }  // namespace

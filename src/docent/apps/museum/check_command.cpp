@@ -14,6 +14,7 @@
 #include "docent/interaction/speech/dictionary.h"
 #include "docent/interaction/speech/repertoire.h"
 #include "docent/modules/drive/plan_module.h"
+#include "docent/museum/heading_notes.h"
 #include "docent/museum/museum.h"
 #include "docent/museum/museum_loading.h"
 #include "docent/robot/body_notes.h"
@@ -98,6 +99,7 @@ void check(const Deployment& deployment, bool lists_recordings) {
     if (museum.simulation_path) check_simulation(museum, faults);
     check_sounds(museum, faults);
     check_program(museum, faults);
+    for (const std::string& note : museum::heading_notes(museum)) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (faults.empty()) {
       note_languages(museum);
       if (lists_recordings) list_recordings(museum);

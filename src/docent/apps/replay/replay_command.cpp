@@ -13,6 +13,7 @@
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/base/files.h"
 
 namespace docent::apps::replay_command {
@@ -42,6 +43,7 @@ std::string museum_folder(const ReplayCommandOptions& options) {
 void replay_recording(ReplayCommandOptions& options) {
   options.deployment.museum = museum_folder(options);
   const museum::Museum museum = value_or_fail(options.deployment.load());
+  say_map(museum);
   RobotMaker& robot = *options.replay.robot_maker;
   robot::RobotConfig config = value_or_fail(options.deployment.load_config(robot.sections()));
   value_or_fail(robot.read(config));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "docent/messages/topics.h"
+#include "docent/transport/create3_support.h"
 
 namespace docent::apps::ros {
 namespace {
@@ -24,7 +25,7 @@ std::string without_slash(const std::string& topic) { return topic.starts_with('
 
 }  // namespace
 
-std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar) {
+std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3) {
   std::vector<Need> needs;
   needs.push_back({topic_info(topics::kOdometry),
                    true,
@@ -45,7 +46,9 @@ std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar) {
   if (body.infrareds > 0)
     needs.push_back(
         {topic_info(topics::kInfrared), true, "the robot stands, unless body.infrareds is 0", {"avoid", "map"}});
-  if (body.tactile)
+  if (body.tactile && is_create3)
+    needs.push_back({topic_info(topics::kHazards), true, "the robot stands, unless body.tactile is false", {"robot"}});
+  else if (body.tactile)
     needs.push_back(
         {topic_info(topics::kTactile), true, "the robot stands, unless body.tactile is false", {"avoid", "map"}});
   needs.push_back({topic_info(topics::kBattery), false, "it drives, and never goes to charge", {"mission", "web"}});
@@ -93,9 +96,13 @@ void check_commands(Check& check, const Wire& wire) {
   const std::string name = wire.name(topic);
   const std::string health = wire.name(topic_info(topics::kHealth));
   const std::string said = transport::ros_topic(name);
-  int readers = 0;
+  int readers = 0, own_writers = 0;
   for (const Endpoint& one : check.heard.endpoints) {
-    if (one.topic != name || is_docent(check.heard, one.participant, health)) continue;
+    if (one.topic != name) continue;
+    if (is_docent(check.heard, one.participant, health)) {
+      own_writers += one.writes ? 1 : 0;
+      continue;
+    }
     const std::string who = "a program with " + vendor_of(check.heard, one.participant);
     if (one.writes) {
       check.faults.push_back(who + " publishes " + said + ": the base obeys whoever spoke last; only Docent may");
@@ -109,6 +116,9 @@ void check_commands(Check& check, const Wire& wire) {
                                                            : " (body.stamped_commands: true)";
     check.faults.push_back(who + " reads " + said + ", but " + why);
   }
+  if (own_writers > 1)
+    check.faults.push_back(std::to_string(own_writers) + " programs of Docent's publish " + said +
+                           ": two robots of one name are on this domain, and each drives both bases");
   if (readers == 0) check.notes.push_back("nobody reads " + said + ": no base would obey");
 }
 

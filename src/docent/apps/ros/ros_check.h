@@ -19,8 +19,9 @@ struct Need {
   std::string without;               ///< what becomes of the robot
   std::vector<std::string> modules;  ///< that read it
 };
-/// Of a robot with that body. @param needs_sonar  avoid.needs_sonar
-[[nodiscard]] std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar);
+/// Of a robot with that body. @param needs_sonar  avoid.needs_sonar @param is_create3  robot.create3: its bumpers come
+/// on hazard_detection
+[[nodiscard]] std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3);
 
 /// What came on a topic while the command listened.
 struct Arrivals {

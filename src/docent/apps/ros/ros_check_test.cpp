@@ -49,13 +49,13 @@ TEST(RosCheck, NeedsAreThoseOfTheBody) {
   body.infrareds = 0;
   body.tactile = false;
   std::vector<std::string> needed;
-  for (const Need& need : needs_of(body, true))
+  for (const Need& need : needs_of(body, true, false))
     if (need.is_needed) needed.emplace_back(need.topic.name);
   EXPECT_EQ(needed, (std::vector<std::string>{"odom", "scan_front"}));
   body.sonars = 8;
   body.tactile = true;
   const auto is_needed = [&](const char* name, bool needs_sonar) {
-    const auto needs = needs_of(body, needs_sonar);
+    const auto needs = needs_of(body, needs_sonar, false);
     return std::any_of(needs.begin(), needs.end(),
                        [&](const Need& need) { return need.is_needed && std::string_view{need.topic.name} == name; });
   };
@@ -63,6 +63,13 @@ TEST(RosCheck, NeedsAreThoseOfTheBody) {
   EXPECT_FALSE(is_needed("sonar", false));
   EXPECT_TRUE(is_needed("tactile", true));
   EXPECT_FALSE(is_needed("battery_state", true));
+  const auto of_create3 = needs_of(body, true, true);
+  const auto names = [&](const char* name) {
+    return std::count_if(of_create3.begin(), of_create3.end(),
+                         [&](const Need& need) { return std::string_view{need.topic.name} == name; });
+  };
+  EXPECT_EQ(names("hazard_detection"), 1) << "of which its bumpers are made";
+  EXPECT_EQ(names("tactile"), 0);
 }
 
 TEST_F(ABase, WhatArrivesIsFine) {
@@ -106,6 +113,13 @@ TEST_F(ABase, CommandsOfTheWrongTypeAndOfOthersAreFaults) {
   check_.notes.clear();
   check_commands(check_, kWire);
   EXPECT_TRUE(check_.faults.empty() && check_.notes.empty()) << "Docent's own writer is no stranger";
+  add(true, "second", "rt/docent/health", "docent_msgs/msg/Health");
+  add(true, "second", "rt/cmd_vel", "geometry_msgs/msg/Twist");
+  check_commands(check_, kWire);
+  ASSERT_EQ(check_.faults.size(), 1U);
+  EXPECT_NE(check_.faults[0].find("two robots of one name"), std::string::npos) << check_.faults[0];
+  check_.faults.clear();
+  check_.heard.endpoints.pop_back();
   add(true, "base", "rt/cmd_vel", "geometry_msgs/msg/Twist");
   add(false, "base", "rt/cmd_vel", "geometry_msgs/msg/TwistStamped");
   check_commands(check_, kWire);

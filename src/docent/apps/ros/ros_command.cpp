@@ -11,6 +11,8 @@
 #include "docent/apps/shared/deployment.h"
 #include "docent/collision_avoidance/avoider/avoider_params.h"
 #include "docent/messages/topics.h"
+#include "docent/modules/drive/robot_module.h"
+#include "docent/transport/create3_support.h"
 #include "docent/transport/dds_bus.h"
 
 namespace docent::apps::ros {
@@ -34,6 +36,8 @@ void listen(transport::DdsBus& bus, const std::vector<Need>& needs, double durat
     for (const Need& need : needs)
       if (std::string_view{need.topic.name} == topic.name) count(bus, topic, arrivals);
   });
+  for (const Need& need : needs)
+    if (std::string_view{need.topic.name} == topics::kHazards.name) count(bus, topics::kHazards, arrivals);
   std::stop_source stop;
   bus.after(seconds(duration_s), [&stop] { stop.request_stop(); });
   bus.run(stop.get_token());
@@ -54,7 +58,7 @@ void check(const Options& options) {
   result.seconds = options.seconds;
   const auto bus =
       value_or_fail(transport::DdsBus::create(deployment.bus_options(deployment.domain, "ros_check", config.body())));
-  const auto needs = needs_of(config.body(), avoid.needs_sonar);
+  const auto needs = needs_of(config.body(), avoid.needs_sonar, value_or_fail(modules::base_is_create3(config), 2));
   std::map<std::string, Arrivals> arrivals;
   transport::RosNodeListener nodes{bus->participant()};
   listen(*bus, needs, options.seconds, arrivals);

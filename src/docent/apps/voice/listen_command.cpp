@@ -9,6 +9,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
+#include "docent/apps/shared/map_note.h"
 #include "docent/interaction/sound/sound_file.h"
 #include "docent/interaction/voice/voice_recognizer.h"
 #include "docent/museum/museum.h"
@@ -30,7 +31,7 @@ std::string meant(const interaction::HeardVoice& heard) {
 }
 
 void listen(const Options& options) {
-  const auto museum = value_or_fail(museum::load_museum(options.museum));
+  const auto museum = load_museum_and_say(options.museum);
   auto recognizer =
       value_or_fail(interaction::VoiceRecognizer::create(interaction::VoiceGrammar{museum}, options.params));
   for (const std::string& recording : options.recordings) {

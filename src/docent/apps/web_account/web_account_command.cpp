@@ -56,7 +56,9 @@ void add(const Options& options) {
   const Opened opened = open(options);
   const auto rank = parse<telepresence::Rank>(options.role).value_or(telepresence::Rank::viewer);
   value_or_fail(opened.accounts->add(options.name, read_secret("password for " + options.name + ": "), rank, now()));
-  std::printf("%s is a %s now; they log in on the page /operate\n", options.name.c_str(), options.role.c_str());
+  const char* article = options.role.starts_with('o') ? "an" : "a";
+  std::printf("%s is %s %s now; they log in on the page /operate\n", options.name.c_str(), article,
+              options.role.c_str());
 }
 
 void set_password(const Options& options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace docent::recording {
 namespace {
@@ -81,6 +82,24 @@ MendedStamps mended_stamps(const std::vector<RecordedStamp>& stamps) {
   }
   if (const std::size_t moved = part_two_clocks(mended.times, stamps); moved > 0) mended.mended = moved;
   return mended;
+}
+
+Duration clock_ahead(const std::vector<RecordedStamp>& stamps, const std::vector<RecordedStamp>& others) {
+  if (stamps.empty() || others.empty()) return {};
+  std::vector<Duration> ahead;
+  ahead.reserve(stamps.size());
+  for (const RecordedStamp& one : stamps) {
+    const auto [from, to] =
+        std::equal_range(others.begin(), others.end(), one,
+                         [](const RecordedStamp& a, const RecordedStamp& b) { return a.recorded < b.recorded; });
+    // Of several that were recorded at once, or all where the file has no times, the middle one.
+    const auto at = std::min((from - others.begin() + (to - others.begin())) / 2, std::ssize(others) - 1);
+    const RecordedStamp& other = others[static_cast<std::size_t>(at)];
+    ahead.push_back((one.stamp - one.recorded) - (other.stamp - other.recorded));
+  }
+  const auto middle = ahead.begin() + std::ssize(ahead) / 2;
+  std::nth_element(ahead.begin(), middle, ahead.end());
+  return *middle;
 }
 
 }  // namespace docent::recording

@@ -26,4 +26,9 @@ struct MendedStamps {
 };
 [[nodiscard]] MendedStamps mended_stamps(const std::vector<RecordedStamp>& stamps);
 
+/// How far the clock of `stamps` is ahead of that of `others`, in the median: each is set beside what was recorded at
+/// its time, for two topics of a clock that is faster or slower than the file's are farther from it the later they are.
+/// @pre both in the order of the file's times. Zero where either is empty. O(n log m)
+[[nodiscard]] Duration clock_ahead(const std::vector<RecordedStamp>& stamps, const std::vector<RecordedStamp>& others);
+
 }  // namespace docent::recording

@@ -34,6 +34,22 @@ TEST(StampClock, SoundStampsStay) {
   EXPECT_EQ(slow.mended, 0U);
 }
 
+TEST(StampClock, TwoTopicsOfOneClockAreNotApart) {
+  const auto sound = messages([](int, double at) { return at; });
+  EXPECT_EQ(clock_ahead(sound, sound), Duration{});
+  EXPECT_NEAR(to_seconds(clock_ahead(messages([](int, double at) { return at + 3.0; }), sound)), 3.0, 1e-6);
+  EXPECT_EQ(clock_ahead({}, sound), Duration{});
+  // Five times as fast as the file's, and one of the topics begins late.
+  const auto fast = messages([](int, double at) { return 5.0 * at; });
+  const std::vector<RecordedStamp> late{fast.begin() + 20, fast.end()};
+  EXPECT_LT(std::abs(to_seconds(clock_ahead(late, fast))), 0.01);
+  EXPECT_LT(std::abs(to_seconds(clock_ahead(fast, late))), 0.01);
+  // A file without times.
+  auto untimed = messages([](int, double at) { return at; });
+  for (RecordedStamp& one : untimed) one.recorded = {};
+  EXPECT_LT(std::abs(to_seconds(clock_ahead(untimed, untimed))), 0.06);
+}
+
 TEST(StampClock, AClockThatWasSetFollowsItsLongestStretch) {
   const auto start = mended_stamps(messages([](int i, double at) { return i < 40 ? at - 1.7e9 + 5.0 : at; }));
   EXPECT_EQ(start.mended, 40U);
