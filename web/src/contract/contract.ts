@@ -354,8 +354,18 @@ export interface StatisticsDay {
   web_visitors: number;
   counts: Record<string, number>;
 }
+export interface TourStopCount {
+  day: string;
+  mode: string;
+  tour_began: number;
+  tour: string;
+  stop: number;
+  exhibit: string;
+  people: number;
+}
 export interface StatisticsDays {
   days: StatisticsDay[];
+  attendance: TourStopCount[];
 }
 export interface AccountLine {
   name: string;
@@ -403,7 +413,7 @@ export interface SetupWish {
 export interface RequestMessage {
   type: 'request';
   id: string;
-  kind: 'exhibit' | 'tour' | 'cancel' | 'point' | 'room';
+  kind: 'exhibit' | 'tour' | 'cancel' | 'point' | 'room' | 'skip';
   target: string;
   viewpoint: number;
   name: string;
@@ -440,10 +450,15 @@ export interface HelpMessage {
   id: string;
   language: string;
 }
+export interface SkipMessage {
+  type: 'skip';
+  id: string;
+  exhibit: string;
+}
 export interface AnswerMessage {
   type: 'answer';
   id: string;
-  question: 'liked' | 'satisfied' | 'intelligence';
+  question: 'liked' | 'satisfied' | 'price' | 'intelligence';
   answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
   language: string;
 }
@@ -470,7 +485,7 @@ export interface SetHoursMessage {
   mode: 'open' | 'web' | 'closed' | 'hours';
 }
 export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | MapsMessage | ExplorationMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | SkipMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
 export const documents = {
   "AccountLine": {
     "fields": {
@@ -524,6 +539,7 @@ export const documents = {
         "words": [
           "liked",
           "satisfied",
+          "price",
           "intelligence"
         ]
       }
@@ -1422,7 +1438,8 @@ export const documents = {
           "tour",
           "cancel",
           "point",
-          "room"
+          "room",
+          "skip"
         ]
       },
       "language": "string",
@@ -1568,6 +1585,14 @@ export const documents = {
     "maybe": {},
     "type": "speech"
   },
+  "SkipMessage": {
+    "fields": {
+      "exhibit": "string",
+      "id": "string"
+    },
+    "maybe": {},
+    "type": "skip"
+  },
   "StatisticsDay": {
     "fields": {
       "counts": {
@@ -1581,6 +1606,11 @@ export const documents = {
   },
   "StatisticsDays": {
     "fields": {
+      "attendance": {
+        "list": {
+          "document": "TourStopCount"
+        }
+      },
       "days": {
         "list": {
           "document": "StatisticsDay"
@@ -1622,6 +1652,18 @@ export const documents = {
       "title": {
         "map": "string"
       }
+    },
+    "maybe": {}
+  },
+  "TourStopCount": {
+    "fields": {
+      "day": "string",
+      "exhibit": "string",
+      "mode": "string",
+      "people": "number",
+      "stop": "number",
+      "tour": "string",
+      "tour_began": "number"
     },
     "maybe": {}
   },
