@@ -1562,6 +1562,14 @@ export const documents = {
     },
     "maybe": {}
   },
+  "SkipMessage": {
+    "fields": {
+      "exhibit": "string",
+      "id": "string"
+    },
+    "maybe": {},
+    "type": "skip"
+  },
   "SoundMessage": {
     "fields": {
       "music": "string",
@@ -1584,14 +1592,6 @@ export const documents = {
     },
     "maybe": {},
     "type": "speech"
-  },
-  "SkipMessage": {
-    "fields": {
-      "exhibit": "string",
-      "id": "string"
-    },
-    "maybe": {},
-    "type": "skip"
   },
   "StatisticsDay": {
     "fields": {
