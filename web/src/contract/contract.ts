@@ -381,6 +381,7 @@ export interface MuseumDraft {
   home: [number, number, number];
   charger: [number, number, number] | null;
   exhibits: Exhibit[];
+  tours: Tour[];
 }
 export interface MuseumEdition {
   revision: string;
@@ -1246,6 +1247,11 @@ export const documents = {
           "number",
           "number"
         ]
+      },
+      "tours": {
+        "list": {
+          "document": "Tour"
+        }
       }
     },
     "maybe": {}
