@@ -62,7 +62,7 @@ await check('a whole tour by four buttons only', async () => {
   // More at the first exhibit, on at the second.
   await shows(page, 'explaining', 60000);
   await page.locator('.soon').waitFor();
-  ensure((await lit(page)) === '', `lit are ${await lit(page)}`);
+  ensure((await lit(page)) === '2', `lit are ${await lit(page)}`); // the stop may be skipped, more and next come
   await shows(page, 'asking', 20000);
   ensure((await lit(page)) === '3 4', `lit are ${await lit(page)}`);
   await page.screenshot({ path: join(pictures, 'kiosk-tour-asking.png') });
@@ -79,6 +79,9 @@ await check('a whole tour by four buttons only', async () => {
   await pressButton(3); // likes it
   await page.locator('h1', { hasText: 'good tour' }).waitFor();
   await pressButton(2); // undecided
+  await page.locator('h1', { hasText: '1,000 dollars' }).waitFor();
+  await page.screenshot({ path: join(pictures, 'kiosk-poll-price.png') });
+  await pressButton(1); // no
   await page.locator('h1', { hasText: 'clever' }).waitFor();
   await pressButton(4); // something smaller
   await page.locator('button', { hasText: 'amoeba' }).waitFor();
@@ -86,7 +89,33 @@ await check('a whole tour by four buttons only', async () => {
   await shows(page, 'thanks');
   await shows(page, 'home', 10000);
   const answers = poll().slice(before).map((line) => line.split(',').slice(2).join());
-  ensure(answers.join(' ') === 'en,liked,yes en,satisfied,undecided en,intelligence,amoeba', answers.join(' '));
+  ensure(answers.join(' ') === 'en,liked,yes en,satisfied,undecided en,price,no en,intelligence,amoeba', answers.join(' '));
+  ensure(complaints.length === 0, complaints.join('; '));
+  await context.close();
+});
+
+await check('stops that nobody wants are skipped, on the way and while they are explained', async () => {
+  const { page, robot, complaints, context } = await listen({ viewport: { width: 1080, height: 1920 }, hasTouch: true });
+  await page.goto(kiosk);
+  await page.locator('main[data-screen=home], main[data-screen=poll]').waitFor({ timeout: 120000 });
+  if ((await screenOf(page)) === 'poll') await tap(page, 'button.blue');
+  await shows(page, 'home', 15000);
+  await tap(page, 'button.red');
+  await shows(page, 'driving', 15000);
+  const title = () => page.locator('h1').innerText();
+  const first = await title();
+  const progress = await page.locator('.progress').innerText();
+  ensure(progress.startsWith('stop 1 of'), progress);
+  await page.screenshot({ path: join(pictures, 'kiosk-skip-driving.png') });
+  await tap(page, 'button.yellow');
+  await until('it drives to the next stop', async () => (await title()) !== first && (await screenOf(page)) === 'driving', 5000);
+  ensure((await page.locator('.progress').innerText()).startsWith('stop 2 of'), await page.locator('.progress').innerText());
+  await shows(page, 'explaining', 60000);
+  await page.screenshot({ path: join(pictures, 'kiosk-skip-explaining.png') });
+  await tap(page, 'button.yellow');
+  await until('it says no more of it', async () => !['explaining', 'asking'].includes(await screenOf(page)), 5000);
+  const skips = robot.sent.filter((message) => message.type === 'skip').map(({ exhibit }) => exhibit);
+  ensure(skips.length === 2 && skips[0] !== skips[1], JSON.stringify(skips));
   ensure(complaints.length === 0, complaints.join('; '));
   await context.close();
 });

@@ -105,17 +105,34 @@ const states = {
   explaining: ['explaining', async ({ robot }) => (robot.mission('explaining', { exhibit: 'zuse' }), speech(robot, 't/short', 'This is the Z22. It counts with tubes.'))],
   'long-story': ['explaining', async ({ robot }) => (robot.mission('explaining', { exhibit: 'transrapid' }), speech(robot, 't/short', long))],
   'more-story': ['explaining', async ({ robot }) => (robot.mission('explaining', { exhibit: 'transrapid' }), speech(robot, 't/long', long))],
+  'own-driving': ['driving', async (all) => (await beginOwn(all), all.robot.mission('driving', { exhibit: 'zuse', tour: 'highlights', agenda: ['transrapid'] }))],
+  'own-story': ['explaining', async (all) => {
+    await beginOwn(all);
+    all.robot.mission('explaining', { exhibit: 'transrapid', tour: 'highlights', agenda: [] });
+    speech(all.robot, 't/short', 'It carried visitors over nine hundred metres of track, without wheels.');
+    await all.page.locator('.soon').waitFor();
+  }],
   asking: ['asking', async ({ robot }) => asks(robot, 'transrapid')],
   answered: ['answered', async ({ page, robot }) => (asks(robot, 'transrapid'), await shows(page, 'asking'), await page.keyboard.press('3'))],
   poll: ['poll', async (all) => beginPoll(all)],
-  clever: ['poll', async (all) => (await beginPoll(all), await all.page.keyboard.press('3'), await pressKey(all.page, '1'))],
+  price: ['poll', async (all) => (await beginPoll(all), await all.page.keyboard.press('3'), await pressKey(all.page, '1'))],
+  clever: ['poll', async (all) => {
+    await beginPoll(all);
+    for (const key of ['3', '1', '1']) await pressKey(all.page, key);
+  }],
   smaller: ['poll', async (all) => {
     await beginPoll(all);
-    for (const key of ['3', '1', '4']) await pressKey(all.page, key);
+    for (const key of ['3', '1', '1', '4']) await pressKey(all.page, key);
   }],
   thanks: ['thanks', async (all) => (await beginPoll(all), await all.page.keyboard.press('4'))],
   lost: ['lost', async ({ robot }) => (robot.instead.set('live', () => ({ pose: null })), robot.mission('relocalizing'))],
 };
+/** A tour that was asked for here is under way. */
+async function beginOwn({ page, robot, reload }) {
+  await wishes(page, [{ ...tourWish, made: Date.now() - 60e3, state: 'active' }]);
+  robot.instead.set('board', () => ({ open: [{ ...fulfilled(robot), state: 'active' }], closed: [] }));
+  await reload();
+}
 async function beginPoll({ page, robot, reload }) {
   robot.mission('going_home');
   await wishes(page, [{ ...tourWish, made: Date.now() - 200e3, state: 'fulfilled' }]);

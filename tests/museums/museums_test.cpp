@@ -280,6 +280,17 @@ TEST_P(Museums, TextsCanBeSpoken) {
   }
 }
 
+TEST_P(Museums, SpeakThreeLanguagesAndShowEveryExhibit) {
+  EXPECT_EQ(museum_.languages, (std::vector<std::string>{"en", "de", "fr"}));
+  for (const auto& exhibit : museum_.exhibits) {
+    for (const auto* texts : {&exhibit.title, &exhibit.short_text, &exhibit.long_text})
+      EXPECT_EQ(texts->size(), museum_.languages.size()) << exhibit.id;
+    EXPECT_EQ(exhibit.picture, "content/" + exhibit.id + ".svg") << "scripts/draw-exhibits draws it";
+    EXPECT_TRUE(!exhibit.links.empty() || exhibit.web_only) << exhibit.id;
+  }
+  for (const auto& tour : museum_.tours) EXPECT_EQ(tour.title.size(), museum_.languages.size()) << tour.id;
+}
+
 TEST_P(Museums, ToursAreOfAllLengths) {
   std::size_t fixed = 0;
   bool six_minutes = false;

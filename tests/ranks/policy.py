@@ -23,7 +23,7 @@ NEAR = {"login"}
 ALL, SCREEN, STAFF = {"viewer", "screen", "far viewer"}, {"screen"}, {"operator"}
 MESSAGES = {
     "request": ALL | STAFF, "cancel": ALL | STAFF, "choice": ALL | STAFF, "vote": ALL | STAFF, "watch": ALL | STAFF,
-    "lamps": SCREEN, "help": SCREEN, "answer": SCREEN,
+    "lamps": SCREEN, "help": SCREEN, "skip": SCREEN, "answer": SCREEN,
     "lease": STAFF, "steer": STAFF, "stop": STAFF | {"screen with a stop button"}, "set_hours": STAFF,
 }
 # What a screen may say, one with a stop button may, too.

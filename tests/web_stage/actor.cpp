@@ -87,6 +87,10 @@ void Actor::receive(const docent_msgs::Request& request) {
     }
     return publish_board();
   }
+  if (request.kind == "skip") {
+    if (exhibit_ != request.target || (phase_ != Phase::driving && phase_ != Phase::explaining)) return;
+    return agenda_.empty() ? close_active("fulfilled") : void(), next_target();
+  }
   for (const auto& entry : board_.requests) {
     if (entry.request.id == request.id) return publish_board();
   }
@@ -127,12 +131,14 @@ void Actor::close_active(const std::string& state) {
 void Actor::next_target() {
   speech_.publish({});
   if (agenda_.empty()) {
+    tour_.clear();
     for (auto& entry : board_.requests) {
       if (entry.state != "queued") continue;
       entry.state = "active";
       entry.changed = to_message(bus_.now());
       language_ = entry.request.language.empty() ? "en" : entry.request.language;
       if (const auto* tour = museum_.find_tour(entry.request.target); entry.request.kind == "tour" && tour != nullptr) {
+        tour_ = tour->id;
         agenda_ = tour->exhibits;
         if (agenda_.empty()) agenda_ = {museum_.exhibits.front().id, museum_.exhibits.back().id};
       } else {
@@ -362,6 +368,7 @@ void Actor::publish_mission() {
   docent_msgs::MissionState mission;
   mission.header.stamp = to_message(bus_.now());
   const auto* exhibit = museum_.find_exhibit(exhibit_);
+  mission.tour_id = tour_;
   mission.exhibit_id = exhibit_;
   mission.agenda = agenda_;
   mission.exhibits_explained = explained_;

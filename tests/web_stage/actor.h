@@ -59,6 +59,7 @@ class Actor {
   Time phase_since_{};
   double speech_s_ = 0.0;
   std::string exhibit_;
+  std::string tour_;  ///< under way
   std::string language_ = "en";
   bool took_long_ = false;
   std::vector<std::string> agenda_;

@@ -62,7 +62,8 @@ Result<ClientMessage> parse_request(const Json& object, std::string id) {
   RequestMessage message;
   message.id = std::move(id);
   const auto kind = parse<RequestKind>(text_of(object, "kind"));
-  if (!kind || kind == RequestKind::cancel) return fail("request: kind must be exhibit, tour, point or room");
+  if (!kind || kind == RequestKind::cancel || kind == RequestKind::skip)
+    return fail("request: kind must be exhibit, tour, point or room");
   message.kind = *kind;
   message.target = text_of(object, "target");
   if (kind == RequestKind::point) {
@@ -221,7 +222,8 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   if (type == "watch") return WatchMessage{is_set(object, "details"), is_set(object, "thin")};
   if (type == "steer") return parse_steer(object);
   if (type == "lamps") return parse_lamps(object);
-  constexpr std::array kWithId{"request", "cancel", "choice", "vote", "help", "answer", "lease", "stop", "set_hours"};
+  constexpr std::array kWithId{"request", "cancel", "choice", "vote", "help",
+                               "skip",    "answer", "lease",  "stop", "set_hours"};
   if (std::find(kWithId.begin(), kWithId.end(), type) == kWithId.end()) return fail("unknown type of message");
   std::string id = text_of(object, "id");
   if (!is_uuid7(id)) return fail(type + ": id must be a UUID of version 7");
@@ -231,6 +233,11 @@ Result<ClientMessage> parse_client_message(std::string_view text) {
   if (type == "help") {
     HelpMessage message{std::move(id), text_of(object, "language")};
     if (!is_language(message.language)) return fail("help: language must be two letters");
+    return message;
+  }
+  if (type == "skip") {
+    SkipMessage message{std::move(id), text_of(object, "exhibit")};
+    if (!is_identifier(message.exhibit)) return fail("skip: exhibit is not an id");
     return message;
   }
   if (type == "vote") {

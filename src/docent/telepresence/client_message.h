@@ -100,6 +100,17 @@ struct HelpMessage {
     v("id", m.id), v("language", m.language);
   }
 };
+/// {"type":"skip","id":UUIDv7,"exhibit":…}: the tour is to go on without the stop under way.
+struct SkipMessage {
+  static constexpr const char* kName = "SkipMessage";
+  static constexpr const char* kType = "skip";
+  std::string id;
+  std::string exhibit;  ///< of the stop that is not wanted: a press that comes late skips no other
+  template <class Self, class V>
+  static void visit(Self& m, V& v) {
+    v("id", m.id), v("exhibit", m.exhibit);
+  }
+};
 /// {"type":"answer","id":UUIDv7,"question":…,"answer":…,"language":…}: to the poll after a tour.
 struct AnswerMessage {
   static constexpr const char* kName = "AnswerMessage";
@@ -166,7 +177,7 @@ struct SetHoursMessage {
 };
 using ClientMessage =
     std::variant<RequestMessage, CancelMessage, ChoiceMessage, VoteMessage, WatchMessage, LampsMessage, HelpMessage,
-                 AnswerMessage, LeaseMessage, SteerMessage, StopMessage, SetHoursMessage>;
+                 SkipMessage, AnswerMessage, LeaseMessage, SteerMessage, StopMessage, SetHoursMessage>;
 
 /// Error: what is wrong with it, for the close frame (at most 120 bytes, ASCII).
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);

@@ -44,6 +44,12 @@ documents::Exhibit document_of(const museum::Exhibit& exhibit) {
   return document;
 }
 
+documents::Tour document_of(const museum::Tour& tour) {
+  documents::Tour document{tour.id, tour.title, tour.exhibits, tour.minutes, {}};
+  for (const int minute : tour.daily) document.daily.push_back(museum::clock_text(minute));
+  return document;
+}
+
 std::string encode_museum(const museum::Museum& museum, double robot_radius, documents::Rooms rooms) {
   const GridFrame& frame = museum.map.frame;
   documents::Museum document;
@@ -56,10 +62,7 @@ std::string encode_museum(const museum::Museum& museum, double robot_radius, doc
   document.map = {"/api/map.png", frame.columns, frame.rows, frame.resolution, {frame.origin.x, frame.origin.y}};
   for (const auto& hazard : museum.hazards) document.hazards.push_back(document_of(hazard));
   for (const auto& exhibit : museum.exhibits) document.exhibits.push_back(document_of(exhibit));
-  for (const auto& tour : museum.tours) {
-    document.tours.push_back({tour.id, tour.title, tour.exhibits, tour.minutes, {}});
-    for (const int minute : tour.daily) document.tours.back().daily.push_back(museum::clock_text(minute));
-  }
+  for (const auto& tour : museum.tours) document.tours.push_back(document_of(tour));
   document.rooms = std::move(rooms.rooms);
   document.doors = std::move(rooms.doors);
   return json_text(document);

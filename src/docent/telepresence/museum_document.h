@@ -16,6 +16,7 @@ namespace docent::telepresence {
 [[nodiscard]] std::vector<documents::Point> document_of(const Polygon& polygon);
 [[nodiscard]] documents::Hazard document_of(const museum::Hazard& hazard);
 [[nodiscard]] documents::Exhibit document_of(const museum::Exhibit& exhibit);
+[[nodiscard]] documents::Tour document_of(const museum::Tour& tour);
 
 /// All that a page must know of the museum and its map, as JSON text. `robot_radius` in metres.
 [[nodiscard]] std::string encode_museum(const museum::Museum& museum, double robot_radius, documents::Rooms rooms = {});

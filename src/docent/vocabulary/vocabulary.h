@@ -12,9 +12,9 @@
 
 namespace docent {
 
-/// What a visitor wishes for.
-enum class RequestKind { exhibit, tour, cancel, point, room };
-constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel", "point", "room"}; }
+/// What a visitor wishes for; cancel and skip take something back: a request, and the stop under way of a tour.
+enum class RequestKind { exhibit, tour, cancel, point, room, skip };
+constexpr auto words_of(RequestKind) { return std::array{"exhibit", "tour", "cancel", "point", "room", "skip"}; }
 /// The target of a wish for the room after that in which the robot is.
 inline constexpr const char* kNextRoom = "next";
 /// Such a wish takes the robot to a place of the floor, where it shows nothing.
@@ -122,11 +122,11 @@ constexpr auto words_of(Answer) { return std::array{"more", "next", "yes", "no"}
 inline constexpr int kButtons = 4;
 
 /// What visitors are asked after a tour ([Minerva2000] 7): whether they like the robot, whether they were satisfied
-/// with it, and whose intelligence its own is most like.
-enum class PollQuestion { liked, satisfied, intelligence };
-constexpr auto words_of(PollQuestion) { return std::array{"liked", "satisfied", "intelligence"}; }
+/// with it, whether they would pay 1,000 dollars or more for one at home, and whose intelligence its own is most like.
+enum class PollQuestion { liked, satisfied, price, intelligence };
+constexpr auto words_of(PollQuestion) { return std::array{"liked", "satisfied", "price", "intelligence"}; }
 
-/// What they may answer; the last five are for the third question.
+/// What they may answer; the last five are for the last question.
 enum class PollAnswer { yes, undecided, no, human, monkey, dog, fish, amoeba };
 constexpr auto words_of(PollAnswer) {
   return std::array{"yes", "undecided", "no", "human", "monkey", "dog", "fish", "amoeba"};

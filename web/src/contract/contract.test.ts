@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import clientText from '../../../tests/web_contract/client.json?raw';
 import { Motion } from '../lib/motion';
-import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, leaseOf, requestOf, setHoursOf, steerOf, stopOf, voteOf, watchOf } from '../lib/orders';
+import { answerOf, cancelOf, choiceOf, helpOf, lampsOf, leaseOf, requestOf, setHoursOf, skipOf, steerOf, stopOf, voteOf, watchOf } from '../lib/orders';
 import { decode, type LiveMessage, type Reason } from '../lib/protocol';
 import { pageLanguage, pageLanguages, phaseWord, reasonText, word } from '../lib/words';
 import { kioskLanguages } from '../kiosk/words';
@@ -62,7 +62,7 @@ test('the page understands every document of the server', () => {
     seen.add(name);
     expect(documentFaults(message, name, nameOf(path))).toEqual([]);
   }
-  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'VoteMessage', 'WatchMessage', 'LampsMessage', 'HelpMessage', 'AnswerMessage', 'LeaseMessage', 'SteerMessage', 'StopMessage', 'SetHoursMessage'];
+  const client = ['RequestMessage', 'CancelMessage', 'ChoiceMessage', 'VoteMessage', 'WatchMessage', 'LampsMessage', 'HelpMessage', 'SkipMessage', 'AnswerMessage', 'LeaseMessage', 'SteerMessage', 'StopMessage', 'SetHoursMessage'];
   const whole = Object.keys(table).filter((name) => table[name].type !== undefined && !client.includes(name));
   expect([...seen].sort()).toEqual([...whole, 'Museum'].sort());
 });
@@ -96,6 +96,7 @@ test('what the page says is what the server was tested with', () => {
     choiceOf(id, '1-17/more', 'next'),
     lampsOf([1, 4]),
     helpOf(id, 'fr'),
+    skipOf(id, 'sputnik'),
     answerOf(id, 'intelligence', 'dog', 'en'),
     leaseOf(id, true),
     steerOf(true, 0.5, -0.25),

@@ -354,8 +354,18 @@ export interface StatisticsDay {
   web_visitors: number;
   counts: Record<string, number>;
 }
+export interface TourStopCount {
+  day: string;
+  mode: string;
+  tour_began: number;
+  tour: string;
+  stop: number;
+  exhibit: string;
+  people: number;
+}
 export interface StatisticsDays {
   days: StatisticsDay[];
+  attendance: TourStopCount[];
 }
 export interface AccountLine {
   name: string;
@@ -371,6 +381,7 @@ export interface MuseumDraft {
   home: [number, number, number];
   charger: [number, number, number] | null;
   exhibits: Exhibit[];
+  tours: Tour[];
 }
 export interface MuseumEdition {
   revision: string;
@@ -403,7 +414,7 @@ export interface SetupWish {
 export interface RequestMessage {
   type: 'request';
   id: string;
-  kind: 'exhibit' | 'tour' | 'cancel' | 'point' | 'room';
+  kind: 'exhibit' | 'tour' | 'cancel' | 'point' | 'room' | 'skip';
   target: string;
   viewpoint: number;
   name: string;
@@ -440,10 +451,15 @@ export interface HelpMessage {
   id: string;
   language: string;
 }
+export interface SkipMessage {
+  type: 'skip';
+  id: string;
+  exhibit: string;
+}
 export interface AnswerMessage {
   type: 'answer';
   id: string;
-  question: 'liked' | 'satisfied' | 'intelligence';
+  question: 'liked' | 'satisfied' | 'price' | 'intelligence';
   answer: 'yes' | 'undecided' | 'no' | 'human' | 'monkey' | 'dog' | 'fish' | 'amoeba';
   language: string;
 }
@@ -470,7 +486,7 @@ export interface SetHoursMessage {
   mode: 'open' | 'web' | 'closed' | 'hours';
 }
 export type ServerMessage = LiveMessage | PoseMessage | BeliefMessage | PathMessage | MissionMessage | SpeechMessage | HornMessage | SoundMessage | ExpressionMessage | ButtonMessage | BoardMessage | VotesMessage | HoursMessage | FieldMessage | MapsMessage | ExplorationMessage | LogMessage | OperationMessage | HealthMessage | WindowMessage | Acknowledgement | Refusal | ErrorMessage;
-export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
+export type ClientMessage = RequestMessage | CancelMessage | ChoiceMessage | VoteMessage | WatchMessage | LampsMessage | HelpMessage | SkipMessage | AnswerMessage | LeaseMessage | SteerMessage | StopMessage | SetHoursMessage;
 export const documents = {
   "AccountLine": {
     "fields": {
@@ -524,6 +540,7 @@ export const documents = {
         "words": [
           "liked",
           "satisfied",
+          "price",
           "intelligence"
         ]
       }
@@ -1230,6 +1247,11 @@ export const documents = {
           "number",
           "number"
         ]
+      },
+      "tours": {
+        "list": {
+          "document": "Tour"
+        }
       }
     },
     "maybe": {}
@@ -1422,7 +1444,8 @@ export const documents = {
           "tour",
           "cancel",
           "point",
-          "room"
+          "room",
+          "skip"
         ]
       },
       "language": "string",
@@ -1545,6 +1568,14 @@ export const documents = {
     },
     "maybe": {}
   },
+  "SkipMessage": {
+    "fields": {
+      "exhibit": "string",
+      "id": "string"
+    },
+    "maybe": {},
+    "type": "skip"
+  },
   "SoundMessage": {
     "fields": {
       "music": "string",
@@ -1581,6 +1612,11 @@ export const documents = {
   },
   "StatisticsDays": {
     "fields": {
+      "attendance": {
+        "list": {
+          "document": "TourStopCount"
+        }
+      },
       "days": {
         "list": {
           "document": "StatisticsDay"
@@ -1622,6 +1658,18 @@ export const documents = {
       "title": {
         "map": "string"
       }
+    },
+    "maybe": {}
+  },
+  "TourStopCount": {
+    "fields": {
+      "day": "string",
+      "exhibit": "string",
+      "mode": "string",
+      "people": "number",
+      "stop": "number",
+      "tour": "string",
+      "tour_began": "number"
     },
     "maybe": {}
   },

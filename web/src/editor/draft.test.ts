@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { MuseumDraft, Point } from '../lib/protocol';
-import { addExhibit, addHazard, addViewpoint, crossesItself, handlesOf, moveAll, moveHandle, remove, removeHandle, splitSide } from './draft';
+import { addExhibit, addHazard, addTour, addViewpoint, crossesItself, handlesOf, moveAll, moveHandle, remove, removeHandle, renamedExhibit, splitSide, stopsOf, timesOf, withTour } from './draft';
 
 const square: Point[] = [[0, 0], [2, 0], [2, 2], [0, 2]];
 const draft: MuseumDraft = {
@@ -9,6 +9,7 @@ const draft: MuseumDraft = {
   home: [1, 5, 0],
   charger: null,
   exhibits: [],
+  tours: [],
 };
 const hazard = { kind: 'hazard', index: 0 } as const;
 
@@ -53,4 +54,23 @@ test('polygons that cross themselves are known', () => {
   expect(crossesItself(square)).toBe(false);
   expect(crossesItself([[0, 0], [2, 2], [2, 0], [0, 2]])).toBe(true);
   expect(crossesItself([[0, 0], [1, 0], [0, 1]])).toBe(false);
+});
+
+test('a tour is whole without a stop, and follows its exhibits', () => {
+  let next = addExhibit(addExhibit(addTour(draft, ['en'], 'New tour'), [1, 1], ['en'], 'One'), [2, 2], ['en'], 'Two');
+  expect(next.tours).toEqual([{ id: 'tour-1', title: { en: 'New tour' }, exhibits: [], minutes: 15, daily: [] }]);
+  next = withTour(next, 0, stopsOf(['exhibit-1', 'exhibit-2']));
+  expect(next.tours[0].minutes).toBeNull();
+  next = renamedExhibit(next, 1, 'clock');
+  expect(next.tours[0].exhibits).toEqual(['exhibit-1', 'clock']);
+  next = remove(next, { kind: 'exhibit', index: 0 });
+  expect(next.tours[0].exhibits).toEqual(['clock']);
+  expect(remove(next, { kind: 'exhibit', index: 0 }).tours).toEqual([]);
+  expect(remove(next, { kind: 'tour', index: 0 }).tours).toEqual([]);
+  expect(handlesOf(next, { kind: 'tour', index: 0 })).toEqual([]);
+});
+test('times of day are read as people write them, and rise', () => {
+  expect(timesOf('16:30, 9.05 9:05')).toEqual(['09:05', '16:30']);
+  expect(timesOf('')).toEqual([]);
+  for (const wrong of ['2 pm', '24:00', '12:60', '14']) expect(timesOf(wrong)).toBeNull();
 });

@@ -1,8 +1,8 @@
 // A draft of a museum: handles on its map, and what becomes of it when one of them is moved. Nothing here changes a draft:
 // each function gives a new one. Metres and radians in the map's frame.
-import type { Exhibit, Hazard, MuseumDraft, Point, Pose } from '../lib/protocol';
+import type { Exhibit, Hazard, MuseumDraft, Point, Pose, Tour } from '../lib/protocol';
 
-export type Selection = { kind: 'area' | 'home' | 'charger' } | { kind: 'hazard' | 'exhibit'; index: number };
+export type Selection = { kind: 'area' | 'home' | 'charger' } | { kind: 'hazard' | 'exhibit' | 'tour'; index: number };
 export interface Handle {
   /** Names it among those of what is selected. */
   key: string;
@@ -75,6 +75,15 @@ export function withHazard(draft: MuseumDraft, index: number, change: Partial<Ha
 export function withExhibit(draft: MuseumDraft, index: number, change: Partial<Exhibit>): MuseumDraft {
   return { ...draft, exhibits: draft.exhibits.map((exhibit, i) => (i === index ? { ...exhibit, ...change } : exhibit)) };
 }
+/** Tours go on to name an exhibit that is called otherwise now. */
+export function renamedExhibit(draft: MuseumDraft, index: number, id: string): MuseumDraft {
+  const before = draft.exhibits[index].id;
+  const tours = draft.tours.map((tour) => ({ ...tour, exhibits: tour.exhibits.map((one) => (one === before ? id : one)) }));
+  return { ...withExhibit(draft, index, { id }), tours };
+}
+export function withTour(draft: MuseumDraft, index: number, change: Partial<Tour>): MuseumDraft {
+  return { ...draft, tours: draft.tours.map((tour, i) => (i === index ? { ...tour, ...change } : tour)) };
+}
 export function withPose(draft: MuseumDraft, selection: Selection, pose: Pose): MuseumDraft {
   const next: Pose = [...at([pose[0], pose[1]]), pose[2]];
   if (selection.kind === 'home') return { ...draft, home: next };
@@ -129,8 +138,16 @@ export function remove(draft: MuseumDraft, selection: Selection): MuseumDraft {
   switch (selection.kind) {
     case 'hazard':
       return { ...draft, hazards: draft.hazards.filter((_, i) => i !== selection.index) };
-    case 'exhibit':
-      return { ...draft, exhibits: draft.exhibits.filter((_, i) => i !== selection.index) };
+    case 'exhibit': {
+      // Tours that led there lead past it; one that has no other stop goes, too.
+      const { id } = draft.exhibits[selection.index];
+      const tours = draft.tours
+        .map((tour) => (tour.exhibits.includes(id) ? { ...tour, exhibits: tour.exhibits.filter((one) => one !== id) } : tour))
+        .filter((tour) => tour.minutes !== null || tour.exhibits.length > 0);
+      return { ...draft, exhibits: draft.exhibits.filter((_, i) => i !== selection.index), tours };
+    }
+    case 'tour':
+      return { ...draft, tours: draft.tours.filter((_, i) => i !== selection.index) };
     case 'charger':
       return { ...draft, charger: null };
   }
@@ -177,6 +194,21 @@ export function addExhibit(draft: MuseumDraft, lookAt: Point, languages: string[
     links: [],
   };
   return { ...draft, exhibits: [...draft.exhibits, exhibit] };
+}
+/** A tour of a quarter of an hour, which the robot makes up as it goes: so it is whole without a stop. */
+export function addTour(draft: MuseumDraft, languages: string[], title: string): MuseumDraft {
+  const tour: Tour = { id: freshId(draft.tours, 'tour'), title: Object.fromEntries(languages.map((language) => [language, title])), exhibits: [], minutes: 15, daily: [] };
+  return { ...draft, tours: [...draft.tours, tour] };
+}
+/** With these stops; without any it is made up as it goes. */
+export const stopsOf = (exhibits: string[]): Pick<Tour, 'exhibits' | 'minutes'> => ({ exhibits, minutes: exhibits.length > 0 ? null : 15 });
+/** "9:05, 14:00" → times of the day, rising; null: one of them is none. */
+export function timesOf(text: string): string[] | null {
+  const times = text.split(/[,;\s]+/).filter(Boolean).map((one) => {
+    const parts = /^(\d{1,2})[:.](\d{2})$/.exec(one);
+    return parts && +parts[1] < 24 && +parts[2] < 60 ? `${parts[1].padStart(2, '0')}:${parts[2]}` : null;
+  });
+  return times.every((one) => one !== null) ? [...new Set(times as string[])].sort() : null;
 }
 export function addViewpoint(draft: MuseumDraft, index: number, place: Point): MuseumDraft {
   const { viewpoints, look_at } = draft.exhibits[index];

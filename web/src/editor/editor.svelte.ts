@@ -1,6 +1,6 @@
 // The draft at work: what is chosen, what is being drawn, and the way back.
 import type { MuseumDraft, Point, Pose } from '../lib/protocol';
-import { addExhibit, addExhibitBefore, addHazard, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
+import { addExhibit, addExhibitBefore, addHazard, addTour, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
 
 export type Tool = 'choose' | 'hazard' | 'exhibit' | 'viewpoint' | 'charger';
 /** [m] so near to its first corner, a click closes a polygon. */
@@ -8,7 +8,7 @@ const CLOSES = 0.3;
 const MOST_STEPS = 200;
 
 export class Editor {
-  draft = $state.raw<MuseumDraft>({ area: [], hazards: [], home: [0, 0, 0], charger: null, exhibits: [] });
+  draft = $state.raw<MuseumDraft>({ area: [], hazards: [], home: [0, 0, 0], charger: null, exhibits: [], tours: [] });
   selection = $state.raw<Selection | null>(null);
   tool = $state<Tool>('choose');
   /** The corners so far of a hazard that is being drawn. */
@@ -73,6 +73,7 @@ export class Editor {
     const chosen = this.selection;
     if (chosen?.kind === 'hazard' && !draft.hazards[chosen.index]) this.selection = null;
     if (chosen?.kind === 'exhibit' && !draft.exhibits[chosen.index]) this.selection = null;
+    if (chosen?.kind === 'tour' && !draft.tours[chosen.index]) this.selection = null;
     if (chosen?.kind === 'charger' && !draft.charger) this.selection = null;
   }
 
@@ -98,6 +99,10 @@ export class Editor {
         this.change({ ...this.draft, charger: [place[0], place[1], 0] });
         return this.choose({ kind: 'charger' });
     }
+  }
+  newTour(title: string): void {
+    this.change(addTour(this.draft, this.languages, title));
+    this.choose({ kind: 'tour', index: this.draft.tours.length - 1 });
   }
   /** What is drawn becomes a hazard. */
   close(): void {

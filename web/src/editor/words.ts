@@ -42,6 +42,19 @@ const en = {
   newViewpoint: 'Add a viewpoint',
   whereRobotIs: 'Take the place where the robot stands',
   remove: 'Remove',
+  newTour: 'New tour',
+  stops: 'Stops, in this order',
+  minutes: 'Minutes that the robot fills as it goes, while there is no stop',
+  addStop: 'Add a stop',
+  earlier: 'Earlier',
+  later: 'Later',
+  daily: 'Every day at (several times with commas)',
+  noTime: 'Times look like 14:00.',
+  links: 'Links',
+  addLink: 'Add a link',
+  removeLink: 'Remove this link',
+  newLink: 'Read on',
+  address: 'Address',
 };
 export type EditorWords = typeof en;
 
@@ -88,6 +101,19 @@ const de: EditorWords = {
   newViewpoint: 'Blickpunkt hinzufügen',
   whereRobotIs: 'Den Platz nehmen, an dem der Roboter steht',
   remove: 'Entfernen',
+  newTour: 'Neue Führung',
+  stops: 'Stationen, in dieser Reihenfolge',
+  minutes: 'Minuten, die der Roboter unterwegs füllt, solange es keine Station gibt',
+  addStop: 'Station hinzufügen',
+  earlier: 'Früher',
+  later: 'Später',
+  daily: 'Jeden Tag um (mehrere Zeiten mit Kommas)',
+  noTime: 'Zeiten sehen aus wie 14:00.',
+  links: 'Links',
+  addLink: 'Link hinzufügen',
+  removeLink: 'Diesen Link entfernen',
+  newLink: 'Mehr darüber',
+  address: 'Adresse',
 };
 
 const fr: EditorWords = {
@@ -133,6 +159,19 @@ const fr: EditorWords = {
   newViewpoint: 'Ajouter un point de vue',
   whereRobotIs: 'Prendre la place où est le robot',
   remove: 'Enlever',
+  newTour: 'Nouvelle visite',
+  stops: 'Étapes, dans cet ordre',
+  minutes: 'Minutes que le robot remplit en route, tant qu’il n’y a pas d’étape',
+  addStop: 'Ajouter une étape',
+  earlier: 'Plus tôt',
+  later: 'Plus tard',
+  daily: 'Tous les jours à (plusieurs heures avec des virgules)',
+  noTime: 'Les heures s’écrivent comme 14:00.',
+  links: 'Liens',
+  addLink: 'Ajouter un lien',
+  removeLink: 'Enlever ce lien',
+  newLink: 'En savoir plus',
+  address: 'Adresse',
 };
 
 const all: Record<string, EditorWords> = { en, de, fr };

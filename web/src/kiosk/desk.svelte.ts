@@ -1,6 +1,6 @@
 import { addressOf, keptAs } from '../lib/site';
 import { app, keyOf, type Wish } from '../lib/state.svelte';
-import { answerOf, helpOf, lampsOf, stopOf } from '../lib/orders';
+import { answerOf, helpOf, lampsOf, skipOf, stopOf } from '../lib/orders';
 import { sentencesOf } from '../lib/sentences';
 import { uuid7 } from '../lib/uuid';
 import { type Act, type Asked, litOf, openStates, type Page, pollQuestions, type Screen, screenOf } from './screens';
@@ -156,6 +156,8 @@ class Desk {
       case 'end':
         this.endTour();
         return this.open('home');
+      case 'skipStop':
+        return app.tell(skipOf(uuid7(), act.exhibit));
       case 'language':
         this.speak(act.code);
         return this.open('home');

@@ -133,13 +133,36 @@ describe('on the way', () => {
   });
 });
 
+describe('a stop that nobody wants', () => {
+  const asked = { state: 'active', reason: null, age: 30, since: 20 };
+  const skip = (change: Partial<Situation>) => at(change).choices[1]?.act;
+  test('is skipped on the way there and while it is explained', () => {
+    for (const phase of ['driving', 'explaining']) {
+      for (const exhibit of ['clock', 'coin']) {
+        const screen = at({ mission: mission(phase, { tour: 'a', exhibit }), asked });
+        expect(screen.choices[1]).toEqual({ label: 'Skip this stop', act: { do: 'skipStop', exhibit } });
+        expect(litOf(screen)).toContain(2);
+      }
+    }
+    expect(skip({ mission: mission('driving', { tour: 'a' }), asked, blocked: true })).toBeDefined();
+  });
+  test('by those who wished for the tour here alone, and only where it is a stop of it', () => {
+    expect(skip({ mission: mission('driving', { tour: 'a' }) })).toBeUndefined();
+    expect(skip({ mission: mission('driving'), asked })).toBeUndefined();
+    expect(skip({ mission: mission('driving', { tour: 'a', exhibit: 'elsewhere' }), asked })).toBeUndefined();
+    const composed = { ...base.museum!, tours: [{ ...tour('a'), exhibits: [], minutes: 6 }] };
+    expect(skip({ museum: composed, mission: mission('driving', { tour: 'a' }), asked })).toEqual({ do: 'skipStop', exhibit: 'clock' });
+  });
+});
+
 describe('the questions at the end', () => {
   test('every answer of Minerva’s poll has a button', () => {
     const answers = (change: Partial<Situation>) => at({ poll: 0, ...change }).choices.flatMap((choice) => (choice?.act.do === 'poll' ? [choice.act.answer] : []));
     expect(answers({ poll: 0 })).toEqual(['no', 'undecided', 'yes']);
     expect(answers({ poll: 1 })).toEqual(['no', 'undecided', 'yes']);
-    expect([...answers({ poll: 2 }), ...answers({ poll: 2, smaller: true })]).toEqual(['human', 'monkey', 'dog', 'fish', 'amoeba']);
-    expect(at({ poll: 3 }).name).toBe('thanks');
+    expect(answers({ poll: 2 })).toEqual(['no', 'undecided', 'yes']);
+    expect([...answers({ poll: 3 }), ...answers({ poll: 3, smaller: true })]).toEqual(['human', 'monkey', 'dog', 'fish', 'amoeba']);
+    expect(at({ poll: 4 }).name).toBe('thanks');
   });
   test('a tour that begins is more important', () => {
     expect(at({ poll: 1, mission: mission('driving') }).name).toBe('driving');

@@ -11,6 +11,7 @@ export type Act =
   | { do: 'tour'; id: string }
   | { do: 'help' }
   | { do: 'end' }
+  | { do: 'skipStop'; exhibit: string }
   | { do: 'language'; code: string }
   | { do: 'answer'; option: string }
   | { do: 'poll'; question: AnswerMessage['question']; answer: AnswerMessage['answer'] }
@@ -77,13 +78,13 @@ export interface Situation {
   page: Page;
   /** Of the list on `page`, its first entry. */
   from: number;
-  /** In the last question: fish and amoeba. */
+  /** In the last question of the poll: fish and amoeba. */
   smaller: boolean;
 }
 
 /** Of a wish that is still to be fulfilled. */
 export const openStates = ['sending', 'sent', 'queued', 'active'];
-export const pollQuestions = ['liked', 'satisfied', 'intelligence'] as const;
+export const pollQuestions = ['liked', 'satisfied', 'price', 'intelligence'] as const;
 /** A state of the wish is news for so long [s]. */
 const NEWS = 8;
 /** The mission takes a wish up within a moment; after so long [s] it waits for something. */
@@ -193,6 +194,14 @@ class Teller {
   isOurs(): boolean {
     return !!this.s.asked && openStates.includes(this.s.asked.state);
   }
+  /** Who wished for the tour here need not see all of it. */
+  skipStop(): Choice | null {
+    const { mission, museum } = this.s;
+    const tour = museum?.tours.find((one) => one.id === mission?.tour);
+    if (!mission || !tour || !this.isOurs()) return null;
+    if (tour.exhibits.length > 0 && !tour.exhibits.includes(mission.exhibit)) return null; // somebody else's, on the way
+    return { label: this.w('skipStop'), act: { do: 'skipStop', exhibit: mission.exhibit } };
+  }
   asking(): Screen {
     const prompt = this.s.mission!.prompt!;
     if (this.s.answered) return this.screen('answered', this.w('gladly'), '', NONE, this.s.mission!.exhibit);
@@ -214,7 +223,8 @@ class Teller {
     const isLong = this.s.speech?.id.endsWith('/long') ?? false;
     const hasMore = !isLong && Object.values(exhibit?.long ?? {}).some((text) => text !== '');
     const coming = (key: KioskWord, option: string): Choice => ({ label: this.w(key), act: { do: 'answer', option }, isComing: true });
-    const choices: Choices = hasMore ? [null, null, coming('tellMore', 'more'), coming('goOn', 'next')] : NONE;
+    const choices: Choices = hasMore ? [null, null, coming('tellMore', 'more'), coming('goOn', 'next')] : [...NONE];
+    choices[1] = this.skipStop();
     return { ...this.screen('explaining', this.say(exhibit?.title), this.s.sentence, choices, id), progress: this.progress() };
   }
   driving(): Screen {
@@ -223,7 +233,7 @@ class Teller {
     const first: Choice = this.isOurs()
       ? { label: this.w('endTour'), act: { do: 'page', page: 'end' } }
       : { label: this.w('anotherTour'), act: { do: 'page', page: 'tours', from: 0 } };
-    const choices: Choices = [first, null, null, this.otherLanguage()];
+    const choices: Choices = [first, this.skipStop(), null, this.otherLanguage()];
     const text = this.w(blocked ? 'excuseMe' : 'followMe');
     return { ...this.screen(blocked ? 'blocked' : 'driving', this.say(exhibit?.title), text, choices, mission!.exhibit), progress: this.progress() };
   }

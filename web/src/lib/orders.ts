@@ -9,6 +9,7 @@ import type {
   Point,
   RequestMessage,
   SetHoursMessage,
+  SkipMessage,
   SteerMessage,
   StopMessage,
   VoteMessage,
@@ -42,6 +43,7 @@ export const watchOf = (details: boolean): WatchMessage => ({ type: 'watch', det
 // Of the robot's own screen alone.
 export const lampsOf = (lit: number[]): LampsMessage => ({ type: 'lamps', lit });
 export const helpOf = (id: string, language: string): HelpMessage => ({ type: 'help', id, language });
+export const skipOf = (id: string, exhibit: string): SkipMessage => ({ type: 'skip', id, exhibit });
 export const answerOf = (
   id: string,
   question: AnswerMessage['question'],

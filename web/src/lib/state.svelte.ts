@@ -1,3 +1,4 @@
+import { declareLanguage } from './direction';
 import { RobotClock } from './clock';
 import { fetchText } from './api';
 import { Motion } from './motion';
@@ -205,7 +206,7 @@ class App {
   setLanguage(language: string): void {
     this.language = language;
     store.write('language', language);
-    document.documentElement.lang = language;
+    declareLanguage(language);
   }
   setDark(dark: boolean): void {
     this.dark = dark;

@@ -37,8 +37,8 @@ struct Visit {
   [[nodiscard]] TaskKind task_kind() const { return is_point ? TaskKind::point : TaskKind::visit; }  ///< as a task
 };
 
-/// What became of a stop.
-enum class StopStatus { pending, explained, skipped };
+/// What became of a stop; skipped: the robot could not get there, declined: its visitors did not want it.
+enum class StopStatus { pending, explained, skipped, declined };
 /// An exhibit of a tour.
 struct TourStop {
   std::string exhibit_id;                   ///< of the museum
@@ -154,6 +154,10 @@ class TourScheduler {
   void close_visit();
   /// The visit ended; its requests are fulfilled, tried again later or failed. @pre a visit is under way.
   void finish_visit(bool is_success, const Reason& reason, Time now);
+  /// A visitor before the robot, or the staff, do not want the stop under way of their tour: the visit ends, the stop
+  /// is left out, and what else was wished for there waits again. Who follows the same tour from elsewhere is shown it
+  /// at the end. False: it is not under way, or nobody of theirs takes part in the tour.
+  [[nodiscard]] bool decline_stop(const VisitorRequest& skip, Time now);
   /// True while somebody has waited long who is not being served: then nobody is asked whether they want more.
   [[nodiscard]] bool is_in_a_hurry(Time now) const;
   /// True when no request wants the visit under way any more.
@@ -188,6 +192,8 @@ class TourScheduler {
   [[nodiscard]] std::optional<bool> resume_tour(const std::string& tour_id, const std::vector<std::string>& members,
                                                 Point2 robot, Time now, double budget_s);
   void cancel(const VisitorRequest& request, Time now);
+  /// Of a tour with a fixed order: who has declined all that was theirs.
+  void drop_members_without_stops(Time now);
   void close_request(const std::string& id, RequestStatus status, const Reason& reason, Time now);
   [[nodiscard]] std::vector<std::string> ids(RequestKind kind, RequestStatus status, const std::string& target) const;
   /// Of requests for an exhibit, or for a point, which a visit may serve.

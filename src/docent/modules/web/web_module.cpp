@@ -227,6 +227,7 @@ class WebModule final : public Module {
     bus_.subscribe<docent_msgs::Stop>(topics::kStop, [this](const auto&) { service_.confirm(bus_.now()); });
     bus_.subscribe<nav_msgs::Odometry>(topics::kOdometry, see);
     bus_.subscribe<docent_msgs::Event>(topics::kEvent, see);
+    bus_.subscribe<docent_msgs::Tactile>(topics::kTactile, see);
     bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, see);
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, see);
     bus_.subscribe<docent_msgs::SoundState>(topics::kSoundState, see);

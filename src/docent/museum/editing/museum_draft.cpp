@@ -31,7 +31,7 @@ bool is_same_by_id(const std::vector<T>& one, const std::vector<T>& other) {
 }  // namespace
 
 MuseumDraft draft_of(const Museum& museum) {
-  return {museum.area, museum.hazards, museum.home, museum.charger, museum.exhibits};
+  return {museum.area, museum.hazards, museum.home, museum.charger, museum.exhibits, museum.tours};
 }
 
 bool is_same(const Pose2& one, const Pose2& other) {
@@ -58,17 +58,29 @@ bool is_same(const Translations& one, const Translations& other) {
   });
 }
 
+bool is_same(const std::vector<Link>& one, const std::vector<Link>& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const Link& a, const Link& b) { return is_same(a.title, b.title) && a.url == b.url; });
+}
+
+bool is_same(const Tour& one, const Tour& other) {
+  return one.id == other.id && is_same(one.title, other.title) && one.exhibits == other.exhibits &&
+         one.minutes == other.minutes && one.daily == other.daily;
+}
+
 bool is_same(const Exhibit& one, const Exhibit& other) {
   return one.id == other.id && is_same(one.title, other.title) && is_same(one.pose, other.pose) &&
          is_near(one.look_at.x, other.look_at.x) && is_near(one.look_at.y, other.look_at.y) &&
          is_same(one.viewpoints, other.viewpoints) && is_same(one.short_text, other.short_text) &&
-         is_same(one.long_text, other.long_text) && one.topics == other.topics && one.web_only == other.web_only;
+         is_same(one.long_text, other.long_text) && one.topics == other.topics && one.web_only == other.web_only &&
+         is_same(one.links, other.links);
 }
 
 bool is_same(const MuseumDraft& one, const MuseumDraft& other) {
   if (one.charger.has_value() != other.charger.has_value()) return false;
   return is_same(one.area, other.area) && is_same_by_id(one.hazards, other.hazards) && is_same(one.home, other.home) &&
-         (!one.charger || is_same(*one.charger, *other.charger)) && is_same_by_id(one.exhibits, other.exhibits);
+         (!one.charger || is_same(*one.charger, *other.charger)) && is_same_by_id(one.exhibits, other.exhibits) &&
+         is_same_by_id(one.tours, other.tours);
 }
 
 }  // namespace docent::museum

@@ -7,14 +7,14 @@
 
 namespace docent::museum {
 
-/// What an editor may change of a museum, as people want it to be. Of exhibits, `picture`, `links` and `next` are not
-/// looked at.
+/// What an editor may change of a museum, as people want it to be. Of exhibits, `picture` and `next` are not looked at.
 struct MuseumDraft {
   Polygon area;  ///< [m], map
   std::vector<Hazard> hazards;
   Pose2 home;
   std::optional<Pose2> charger;
   std::vector<Exhibit> exhibits;
+  std::vector<Tour> tours;
 };
 
 [[nodiscard]] MuseumDraft draft_of(const Museum& museum);
@@ -26,7 +26,9 @@ struct MuseumDraft {
 [[nodiscard]] bool is_same(const std::vector<Pose2>& one, const std::vector<Pose2>& other);
 /// Texts but for space at their ends.
 [[nodiscard]] bool is_same(const Translations& one, const Translations& other);
+[[nodiscard]] bool is_same(const std::vector<Link>& one, const std::vector<Link>& other);
 [[nodiscard]] bool is_same(const Exhibit& one, const Exhibit& other);
+[[nodiscard]] bool is_same(const Tour& one, const Tour& other);
 /// In whatever order.
 [[nodiscard]] bool is_same(const MuseumDraft& one, const MuseumDraft& other);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "docent/base/yaml.h"
+#include "docent/museum/day_plan.h"
 #include "docent/museum/editing/yaml_lines.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -43,6 +44,12 @@ std::string in_brackets(const List& list, Write write) {
   return "[" + text + "]";
 }
 std::string yaml_of(const std::vector<std::string>& words) { return in_brackets(words, quoted); }
+
+/// An id stands as it is: no letter of it means anything to YAML.
+std::string list_of_ids(const std::vector<std::string>& ids) {
+  return in_brackets(ids, [](const std::string& id) { return id; });
+}
+std::string yaml_of(const Link& link) { return "{title: " + yaml_of(link.title) + ", url: " + quoted(link.url) + "}"; }
 
 /// Values that are written below a key: the rest of its line, and further lines, which are indented more.
 Lines value_of(std::string text) { return {" " + std::move(text)}; }
@@ -99,6 +106,7 @@ class Editor {
       set(lines, root_, lines.all(), "charger", value_of(yaml_of(*draft_.charger)));
     edit_list(lines, "hazards", museum.hazards, source_.hazards, draft_.hazards);
     edit_list(lines, "exhibits", museum.exhibits, source_.exhibits, draft_.exhibits);
+    edit_list(lines, "tours", museum.tours, source_.tours, draft_.tours);
     return lines.text();
   }
 
@@ -125,6 +133,9 @@ class Editor {
       exhibits.push_back(node);
     }
     root["exhibits"] = exhibits;
+    YAML::Node tours{YAML::NodeType::Sequence};
+    for (const Tour& tour : draft_.tours) tours.push_back(YAML::Load(yaml_of(tour)));
+    root["tours"] = tours;
     YAML::Emitter emitter;
     emitter << root;
     return std::string{emitter.c_str()} + "\n";
@@ -212,10 +223,15 @@ class Editor {
         {"topics", exhibit.topics.empty() ? Lines{} : value_of(yaml_of(exhibit.topics)),
          !before || before->topics != exhibit.topics},
         {"web_only", exhibit.web_only ? value_of("true") : Lines{}, !before || before->web_only != exhibit.web_only},
+        {"links",
+         exhibit.links.empty() ? Lines{}
+                               : value_of(in_brackets(exhibit.links, [](const Link& link) { return yaml_of(link); })),
+         !before || !is_same(before->links, exhibit.links)},
     };
   }
 
   Lines new_item(const Hazard& hazard) const { return {yaml_of(hazard)}; }
+  Lines new_item(const Tour& tour) const { return {yaml_of(tour)}; }
   Lines new_item(const Exhibit& exhibit) const {
     Lines lines{"id: " + exhibit.id};
     for (const Field& field : fields_of(exhibit, source_.museum.exhibits.size())) {
@@ -231,10 +247,12 @@ class Editor {
     return item;
   }
 
-  void change_item(YamlLines& lines, YamlLines::Range range, const YAML::Node& node, const Hazard& hazard,
+  /// A hazard or a tour, which stands on one line.
+  template <class T>
+  void change_item(YamlLines& lines, YamlLines::Range range, const YAML::Node& node, const T& item,
                    std::size_t /*known*/) {
     const std::string prefix = lines.prefix(range, static_cast<std::size_t>(node.Mark().column));
-    lines.replace(range, {prefix + yaml_of(hazard)});
+    lines.replace(range, {prefix + yaml_of(item)});
   }
   void change_item(YamlLines& lines, YamlLines::Range range, const YAML::Node& node, const Exhibit& exhibit,
                    std::size_t known) {
@@ -299,6 +317,15 @@ std::string yaml_of(const Polygon& polygon) {
 
 std::string yaml_of(const Hazard& hazard) {
   return "{id: " + hazard.id + ", kind: " + to_text(hazard.kind) + ", polygon: " + yaml_of(hazard.polygon) + "}";
+}
+
+std::string yaml_of(const Tour& tour) {
+  std::string text = "{id: " + tour.id + ", title: " + yaml_of(tour.title);
+  if (!tour.exhibits.empty()) text += ", exhibits: " + list_of_ids(tour.exhibits);
+  if (tour.minutes) text += ", minutes: " + number(*tour.minutes, 3);
+  if (!tour.daily.empty())
+    text += ", daily: " + in_brackets(tour.daily, [](int minute) { return quoted(clock_text(minute)); });
+  return text + "}";
 }
 
 std::string yaml_of(const Translations& texts) {

@@ -92,6 +92,7 @@ TEST(MuseumText, AMovedExhibitKeepsWhatTheEditorDoesNotKnow) {
   draft.exhibits[0].pose.x = 3.25;
   draft.exhibits[0].viewpoints.pop_back();
   draft.exhibits[1].web_only = true;
+  draft.tours[0].exhibits = {"clock"};
   std::string expected =
       with(kYaml, "pose: {x: 3.5, y: 2, heading: 90}   # in front of it", "pose: {x: 3.25, y: 2, heading: 90}");
   expected = with(expected, "      - {x: 4.8, y: 3.6, heading: 180}\n", "");
@@ -100,6 +101,44 @@ TEST(MuseumText, AMovedExhibitKeepsWhatTheEditorDoesNotKnow) {
   expected = with(expected, "exhibits: [clock, coin]}", "exhibits: [clock]}");
   const std::string yaml = with(kYaml, "exhibits: [clock, coin]}", "exhibits: [clock]}");
   EXPECT_EQ(edited(draft, yaml), expected);
+}
+
+TEST(MuseumText, ATourAndItsTimesOfDayAreOneLine) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.tours[0].daily = {9 * 60 + 5, 14 * 60};
+  const std::string daily =
+      with(kYaml, "{en: \"All\", de: \"Alles\"}, exhibits: [clock, coin]}",
+           "{de: \"Alles\", en: \"All\"}, exhibits: [clock, coin], daily: [\"09:05\", \"14:00\"]}");
+  EXPECT_EQ(edited(draft), daily);
+  draft.tours.push_back({"quick", {{"en", "Quick: \"now\""}, {"de", "Kurz"}}, {}, 7.5, {}});
+  EXPECT_EQ(edited(draft),
+            daily + "  - {id: quick, title: {de: \"Kurz\", en: \"Quick: \\\"now\\\"\"}, minutes: 7.5}\n");
+  draft.tours.clear();
+  EXPECT_NE(edited(draft).find("tours: []\n"), std::string::npos);
+}
+
+TEST(MuseumText, ATourWithoutStopsOrAtATimeThatIsNoneHasAFault) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.tours[0].exhibits.clear();
+  auto result = edit_museum(kYaml, text_of, draft);
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_FALSE(result->faults.empty());
+  EXPECT_NE(result->faults[0].message.find("needs either exhibits or minutes"), std::string::npos);
+  draft = draft_of_yaml(kYaml);
+  draft.tours[0].daily = {1440};
+  result = edit_museum(kYaml, text_of, draft);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_FALSE(result->faults.empty());
+}
+
+TEST(MuseumText, AnExhibitGetsAndLosesLinks) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.exhibits[1].links = {{{{"en", "More"}, {"de", "Mehr"}}, "https://example.org/coin"}};
+  const std::string linked = with(kYaml, "    topics: [metal]\n",
+                                  "    topics: [metal]\n    links: [{title: {de: \"Mehr\", en: \"More\"}, url: "
+                                  "\"https://example.org/coin\"}]\n");
+  EXPECT_EQ(edited(draft), linked);
+  EXPECT_EQ(edited(draft_of_yaml(kYaml), linked), kYaml);
 }
 
 TEST(MuseumText, ANewExhibitComesWithItsTexts) {

@@ -49,6 +49,7 @@ Mission::Mission(const MissionParams& params, Programme programme, TravelDistanc
 }
 
 void Mission::submit(VisitorRequest request, Time now) {
+  if (request.kind == RequestKind::skip) return skip(request, now);
   conditions_.delay = must_charge_ ? ReasonWord::charging_first : Reason{};
   conditions_.robot = position();
   scheduler_.submit(std::move(request), conditions_, now);
@@ -231,6 +232,17 @@ void Mission::drop_unwanted_visit(Time now) {
   if (!is_for_visit) return;
   start_task(Activity::none, {});
   if (was_ordered) planner_->outcome(*this, order, {false, false, ReasonWord::cancelled}, now);
+}
+
+void Mission::skip(const VisitorRequest& request, Time now) {
+  const TaskOrder order = task_;
+  if (!scheduler_.decline_stop(request, now)) return;
+  const bool was_ordered = activity_ == Activity::action;
+  if (activity_ == Activity::visit || (was_ordered && order.exhibit_id == request.target)) {
+    start_task(Activity::none, {});
+    if (was_ordered) planner_->outcome(*this, order, {false, false, ReasonWord::cancelled}, now);
+  }
+  decide(now);
 }
 
 void Mission::votes(const std::string& round, const std::string& tour, Time now) {

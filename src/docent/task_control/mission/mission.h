@@ -145,6 +145,8 @@ class Mission {
   void start_task(Activity activity, TaskOrder order);
   /// The way home or to the charger is over.
   void note_rest(TaskKind kind, bool is_done, const Reason& reason, Time now);
+  /// Visitors do not want the stop under way: the tour goes on at the next one.
+  void skip(const VisitorRequest& request, Time now);
   /// Ends a visit that nobody wants any more, and the robot's way there.
   void drop_unwanted_visit(Time now);
   /// From now on its way to the visit under way is timed.

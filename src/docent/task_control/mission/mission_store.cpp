@@ -62,7 +62,7 @@ TourRun tour_from(const Json& tour) {
   run.started = {tour.at("started").get<std::int64_t>()};
   for (const Json& stop : tour.at("stops")) {
     run.stops.push_back({stop.at(0).get<std::string>(),
-                         static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 2)), stop.at(2).get<int>(),
+                         static_cast<StopStatus>(std::clamp(stop.at(1).get<int>(), 0, 3)), stop.at(2).get<int>(),
                          stop.at(3).get<int>()});
   }
   for (const Json& member : tour.at("members"))

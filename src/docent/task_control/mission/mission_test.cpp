@@ -282,6 +282,28 @@ TEST(MissionParamsTest, RefusesNonsenseByName) {
   EXPECT_NE(params.validate().error().message.find("overdue_s"), std::string::npos);
 }
 
+TEST_F(MissionTest, AStopThatNobodyWantsIsLeftAtOnceWhateverTheRobotIsAt) {
+  const auto skip = [&](const std::string& exhibit, RequestSource source = RequestSource::kiosk) {
+    mission->submit({"skip-" + exhibit, {}, source, "", RequestKind::skip, exhibit, -1, "en"}, time());
+  };
+  pass(5.0);
+  mission->submit({"t", {}, RequestSource::kiosk, "", RequestKind::tour, "both", -1, "en"}, time());
+  const std::string first = mission->task().id;
+  skip("b");
+  skip("a", RequestSource::web);
+  EXPECT_EQ(mission->task().id, first) << "not the stop under way; not theirs";
+  report(TaskStatus::explaining);
+  skip("a");
+  EXPECT_EQ(mission->task().exhibit_id, "b") << "though it was explaining";
+  EXPECT_NE(mission->task().id, first);
+  mission->report(first, TaskStatus::done, {}, time());
+  EXPECT_EQ(mission->task().exhibit_id, "b") << "what comes late of the stop that was left counts for nothing";
+  report(TaskStatus::explaining);
+  report(TaskStatus::done);
+  EXPECT_EQ(status_of("t"), RequestStatus::fulfilled);
+  EXPECT_EQ(mission->memory().schedule.board.find("skip-a"), nullptr) << "no wish of its own";
+}
+
 TEST_F(MissionTest, EndsATourWithAFarewell) {
   pass(5.0);
   wish("t", RequestKind::tour, "both");

@@ -17,11 +17,15 @@ struct StopOutcome {
   int pending = 0;
   int explained = 0;
   int skipped = 0;
+  int declined = 0;
   std::string missed;  ///< ids of exhibits, with spaces between them
   [[nodiscard]] Reason reason() const {
     if (skipped > 0) return {ReasonWord::not_reached, missed};
+    if (is_declined()) return ReasonWord::cancelled;
     return explained > 0 ? Reason{} : ReasonWord::gone;
   }
+  /// Its visitors wanted nothing of it.
+  [[nodiscard]] bool is_declined() const { return declined > 0 && explained == 0 && skipped == 0; }
 };
 
 /// For one member, or (nullptr) for all: then what was shown in one round counts, though another left it out.
@@ -39,6 +43,7 @@ StopOutcome outcome_of(const TourRun& tour, const TourMember* member) {
     if (!concerns(stop)) continue;
     if (stop.status == StopStatus::pending) ++outcome.pending;
     if (stop.status == StopStatus::explained) ++outcome.explained;
+    if (stop.status == StopStatus::declined) ++outcome.declined;
     if (stop.status != StopStatus::skipped || is_shown(stop.exhibit_id)) continue;
     ++outcome.skipped;
     outcome.missed += (outcome.missed.empty() ? "" : " ") + stop.exhibit_id;
@@ -234,16 +239,20 @@ void TourScheduler::end_tour_if_over(Time now) {
     if (outcome.pending > 0) {
       others.push_back(std::move(member));
     } else {
-      close_request(member.request_id, is_good(outcome) ? RequestStatus::fulfilled : RequestStatus::failed,
-                    outcome.reason(), now);
+      const auto end = is_good(outcome)        ? RequestStatus::fulfilled
+                       : outcome.is_declined() ? RequestStatus::cancelled
+                                               : RequestStatus::failed;
+      close_request(member.request_id, end, outcome.reason(), now);
     }
   }
   tour.members = std::move(others);
   if (!tour.members.empty()) return;
   const StopOutcome outcome = outcome_of(tour, nullptr);
   if (is_good(outcome)) ++state_.counters.tours_completed;
-  happenings_.push_back({is_good(outcome) ? EventKind::tour_completed : EventKind::tour_failed, tour.tour_id,
-                         outcome.reason().text(), to_seconds(now - tour.started)});
+  const auto end = is_good(outcome)        ? EventKind::tour_completed
+                   : outcome.is_declined() ? EventKind::tour_cancelled
+                                           : EventKind::tour_failed;
+  happenings_.push_back({end, tour.tour_id, outcome.reason().text(), to_seconds(now - tour.started)});
   if (outcome.explained > 0) state_.farewell = Farewell{tour.tour_id, tour.language, tour.started};
   if (state_.visit) state_.visit->tour_id.clear();
   state_.tour.reset();

@@ -191,12 +191,28 @@ struct StatisticsDay {
     v("day", d.day), v("mode", d.mode), v("web_visitors", d.web_visitors), v("counts", d.counts);
   }
 };
+/// How many people stood round the robot when it had explained a stop of a tour.
+struct TourStopCount {
+  static constexpr const char* kName = "TourStopCount";
+  std::string day, mode;
+  double tour_began = 0;  ///< [s] since 1970
+  std::string tour;
+  int stop = 0;  ///< of those that the tour has shown, from 1
+  std::string exhibit;
+  int people = 0;
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("day", d.day), v("mode", d.mode), v("tour_began", d.tour_began), v("tour", d.tour), v("stop", d.stop),
+        v("exhibit", d.exhibit), v("people", d.people);
+  }
+};
 struct StatisticsDays {
   static constexpr const char* kName = "StatisticsDays";
   std::vector<StatisticsDay> days;
+  std::vector<TourStopCount> attendance;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
-    v("days", d.days);
+    v("days", d.days), v("attendance", d.attendance);
   }
 };
 

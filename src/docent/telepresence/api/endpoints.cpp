@@ -219,13 +219,19 @@ ApiAnswer<Nothing> send_away(ApiCall& call, const Nothing& /*wish*/) {
 
 ApiAnswer<documents::StatisticsDays> statistics(ApiCall& call, const Nothing& /*wish*/) {
   const auto from = call.query.find("from");
-  const auto days = call.services.statistics->days(from == call.query.end() ? "" : from->second);
+  const std::string first = from == call.query.end() ? "" : from->second;
+  const auto days = call.services.statistics->days(first);
   if (!days) return unstored(days.error());
+  const auto attendance = call.services.statistics->attendance(first);
+  if (!attendance) return unstored(attendance.error());
   documents::StatisticsDays page;
   for (const DayCount& day : *days) {
     page.days.push_back({day.day, day.mode, day.web_visitors, {}});
     for (const auto& [what, amount] : day.counts) page.days.back().counts[to_text(what)] = amount;
   }
+  for (const auto& [day, mode, stop] : *attendance)
+    page.attendance.push_back(
+        {day, mode, to_seconds(stop.tour_began - Time{}), stop.tour, stop.stop, stop.exhibit, stop.people});
   return page;
 }
 

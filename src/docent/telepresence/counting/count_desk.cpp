@@ -14,6 +14,8 @@ constexpr double kMoves = 0.02;                  // [m/s] and more
 constexpr double kLongestGap = 1.0;              // [s] between two odometries that belong together
 constexpr double kRound = 3.0;                   // [m] round the robot stand those whom it guides
 constexpr double kFastest = 3.0;                 // [m/s] whatever says more has jumped
+constexpr double kOneContact = 1.0;              // [s] what touches again within this time has not let go
+constexpr std::size_t kKnownAnswers = 64;        // more than a screen can have under way
 constexpr std::size_t kMostAddresses = 100'000;  // between two stores
 
 std::optional<Counted> counted_of(const std::string& source) {
@@ -61,7 +63,10 @@ void CountDesk::see(const nav_msgs::Odometry& odometry) {
 
 void CountDesk::see(const docent_msgs::Event& event) {
   const auto kind = parse<EventKind>(event.kind);
-  if (kind == EventKind::tour_started) is_first_stop_next_ = true;
+  if (kind == EventKind::tour_started) {
+    stops_ = 0;
+    tour_began_ = from_message(event.header.stamp);
+  }
   if (kind == EventKind::tour_completed) {
     counting_.robot[Counted::tours] += 1.0;
     counting_.robot[Counted::last_stop] += people_at_stop_;
@@ -75,12 +80,30 @@ void CountDesk::see(const docent_msgs::Event& event) {
   if (kind != EventKind::explained) return;
   counting_.robot[Counted::exhibits] += 1.0;
   counting_.robot[Counted::visitors] += people_near_;
-  if (!event.detail.empty()) count_stop_of_tour();  // the tour's id
+  const std::string& tour = event.detail;
+  if (!tour.empty()) count_stop_of_tour(tour, event.subject, from_message(event.header.stamp));
 }
 
-void CountDesk::count_stop_of_tour() {
+void CountDesk::count_stop_of_tour(const std::string& tour, const std::string& exhibit, Time stamp) {
   people_at_stop_ = people_near_;
-  if (std::exchange(is_first_stop_next_, false)) counting_.robot[Counted::first_stop] += people_near_;
+  if (stops_ == 0) counting_.robot[Counted::first_stop] += people_near_;
+  if (tour_began_ == Time{}) tour_began_ = stamp;  // it began before this program
+  counting_.stops.push_back({tour_began_, ++stops_, tour, exhibit, static_cast<int>(people_near_)});
+}
+
+void CountDesk::see(const docent_msgs::Tactile& ring) {
+  const bool is_touched = std::find(ring.segments.begin(), ring.segments.end(), 1) != ring.segments.end();
+  if (!is_touched) return;
+  const Time stamp = from_message(ring.header.stamp);
+  if (!touched_ || stamp - *touched_ > seconds(kOneContact)) counting_.robot[Counted::contacts] += 1.0;
+  touched_ = stamp;
+}
+
+void CountDesk::answered(const std::string& id, PollQuestion question, PollAnswer answer) {
+  if (std::find(answers_.begin(), answers_.end(), id) != answers_.end()) return;
+  answers_.push_back(id);
+  if (answers_.size() > kKnownAnswers) answers_.pop_front();
+  counting_.own[counted_of(question, answer)] += 1.0;
 }
 
 void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
@@ -123,7 +146,9 @@ Result<void> CountDesk::store(const Counting& counted, const std::string& mode, 
   if (auto visitors = statistics_->add_web_visitors(now, mode, counted.addresses); !visitors) return visitors;
   const auto is_ours = statistics_->may_count_robot(gateway_, now);
   if (!is_ours) return tl::unexpected<Error>(is_ours.error());
-  return *is_ours ? statistics_->add(now, mode, counted.robot) : Result<void>{};  // else another gateway counts it
+  if (!*is_ours) return {};  // another gateway counts it
+  if (auto stops = statistics_->add_attendance(now, mode, counted.stops); !stops) return stops;
+  return statistics_->add(now, mode, counted.robot);
 }
 
 void CountDesk::take_back(Counting counted) {
@@ -134,6 +159,7 @@ void CountDesk::take_back(Counting counted) {
   add(counting_.own, counted.own);
   add(counting_.robot, counted.robot);
   for (const std::string& address : counted.addresses) arrived(address);
+  counting_.stops.insert(counting_.stops.begin(), counted.stops.begin(), counted.stops.end());
 }
 
 }  // namespace docent::telepresence

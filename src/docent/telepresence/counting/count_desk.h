@@ -1,16 +1,19 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "docent/geometry/pose2.h"
 #include "docent/messages/mission_messages.h"
 #include "docent/messages/people_messages.h"
 #include "docent/messages/request_messages.h"
+#include "docent/messages/sensing_messages.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/store/store_queue.h"
@@ -27,11 +30,14 @@ class CountDesk {
 
   void arrived(const std::string& address);
   void voted() { counting_.own[Counted::votes] += 1.0; }
+  /// To the poll; an id that came lately is not counted again.
+  void answered(const std::string& id, PollQuestion question, PollAnswer answer);
   /// All that the server was ever asked.
   void asked(std::uint64_t accesses);
   void see(const docent_msgs::RequestBoard& board);
   void see(const nav_msgs::Odometry& odometry);
   void see(const docent_msgs::Event& event);
+  void see(const docent_msgs::Tactile& ring);
   /// The newest people, and where the robot is; of visitors those are counted that are round it.
   void see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base);
   /// Stores what was counted. @param mode  whose hours these are
@@ -44,8 +50,9 @@ class CountDesk {
     Counts own;    ///< what came through this gateway
     Counts robot;  ///< what is of the robot, should this gateway be the one that counts it
     std::set<std::string> addresses;
+    std::vector<Attendance> stops;  ///< of the robot, too
   };
-  void count_stop_of_tour();
+  void count_stop_of_tour(const std::string& tour, const std::string& exhibit, Time stamp);
   [[nodiscard]] Result<void> store(const Counting& counted, const std::string& mode, Time now);
   /// It was not stored: it is tried again with what comes.
   void take_back(Counting counted);
@@ -60,8 +67,11 @@ class CountDesk {
   std::optional<Time> moved_;             ///< stamp of the newest odometry
   std::optional<Pose2> odom_from_base_;
   double people_near_ = 0.0;
-  double people_at_stop_ = 0.0;     ///< at the newest stop of the tour under way
-  bool is_first_stop_next_ = true;  ///< of a tour
+  double people_at_stop_ = 0.0;  ///< at the newest stop of the tour under way
+  int stops_ = 0;                ///< that the tour under way has shown
+  Time tour_began_;
+  std::optional<Time> touched_;      ///< stamp of the newest touch
+  std::deque<std::string> answers_;  ///< ids of the last ones
   std::string fault_;
 };
 

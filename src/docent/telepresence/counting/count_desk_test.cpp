@@ -128,6 +128,86 @@ TEST_F(CountDeskTest, CountsWhoFollowsATourAndHowOftenItsPlanChanges) {
   EXPECT_EQ(counts.at(Counted::tours_failed), 1.0);
 }
 
+TEST_F(CountDeskTest, KeepsWhoStoodThereAtEachStopOfATour) {
+  const auto explains = [&](const std::string& exhibit, int followers) {
+    docent_msgs::People people;
+    for (int i = 0; i < followers; ++i)
+      people.people.push_back({static_cast<std::uint32_t>(i), 1.0F, 1.0F, 0.0F, 0.0F});
+    desk_->see_people(people, Pose2{});
+    docent_msgs::Event event;
+    event.header.stamp = to_message(now_);
+    event.kind = to_text(EventKind::explained);
+    event.subject = exhibit;
+    event.detail = "highlights";
+    desk_->see(event);
+  };
+  const auto begins = [&] {
+    docent_msgs::Event event;
+    event.header.stamp = to_message(now_);
+    event.kind = to_text(EventKind::tour_started);
+    desk_->see(event);
+  };
+  begins();
+  run(60.0);
+  explains("zuse", 6);
+  explains("airbus", 4);
+  ASSERT_TRUE(database_->run_script("ALTER TABLE attendance RENAME TO elsewhere"));
+  desk_->store("open", now_);
+  EXPECT_NE(desk_->fault(), "");
+  ASSERT_TRUE(database_->run_script("ALTER TABLE elsewhere RENAME TO attendance"));
+  explains("mp3", 1);
+  run(60.0);
+  begins();
+  explains("zuse", 2);
+  for (int i = 0; i < 2; ++i) desk_->store("open", now_);
+  const auto stops = *std::move(*Statistics::open(*database_))->attendance("");
+  ASSERT_EQ(stops.size(), 4U);
+  const std::vector<int> people{6, 4, 1, 2};
+  const std::vector<int> numbers{1, 2, 3, 1};
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    EXPECT_EQ(stops[i].stop.people, people[i]);
+    EXPECT_EQ(stops[i].stop.stop, numbers[i]);
+    EXPECT_EQ(stops[i].stop.tour, "highlights");
+    EXPECT_EQ(stops[i].mode, "open");
+  }
+  EXPECT_EQ(stops[1].stop.exhibit, "airbus");
+  EXPECT_EQ(stops[0].stop.tour_began, time_from_seconds(1000.0));
+  EXPECT_TRUE(std::move(*Statistics::open(*database_))->attendance("2000-01-01")->empty());
+}
+
+TEST_F(CountDeskTest, CountsATouchOnceHoweverLongItLasts) {
+  const auto feels = [&](std::uint8_t segment) {
+    docent_msgs::Tactile ring;
+    ring.header.stamp = to_message(now_);
+    ring.segments = {0, segment, 0};
+    desk_->see(ring);
+    run(0.1);
+  };
+  for (int i = 0; i < 30; ++i) feels(i % 5 == 4 ? 0 : 1);  // a hand that trembles
+  for (int i = 0; i < 20; ++i) feels(255);                 // no reading
+  feels(1);
+  desk_->store("open", now_);
+  EXPECT_EQ(day().counts.at(Counted::contacts), 2.0);
+}
+
+TEST_F(CountDeskTest, CountsEachAnswerToThePoll) {
+  const auto answers = [&](const std::string& id, PollQuestion question, PollAnswer answer) {
+    desk_->answered(id, question, answer);
+  };
+  answers("1", PollQuestion::liked, PollAnswer::yes);
+  answers("1", PollQuestion::liked, PollAnswer::yes);  // said twice
+  answers("2", PollQuestion::satisfied, PollAnswer::no);
+  answers("3", PollQuestion::price, PollAnswer::undecided);
+  answers("4", PollQuestion::intelligence, PollAnswer::human);
+  answers("5", PollQuestion::intelligence, PollAnswer::amoeba);
+  desk_->store("open", now_);
+  const auto counts = day().counts;
+  for (const Counted one :
+       {Counted::liked_yes, Counted::satisfied_no, Counted::price_undecided, Counted::human, Counted::amoeba})
+    EXPECT_EQ(counts.at(one), 1.0) << to_text(one);
+  EXPECT_EQ(counts.size(), 5U);
+}
+
 TEST_F(CountDeskTest, CountsEachRequestOnceBySourceAndByItsEnd) {
   docent_msgs::RequestBoard board;
   board.requests = {request("old", RequestSource::web, RequestStatus::fulfilled, time_from_seconds(5)),

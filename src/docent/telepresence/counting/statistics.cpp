@@ -17,9 +17,30 @@ constexpr Migration kTables[] = {
      " PRIMARY KEY (day, hash));"
      "CREATE TABLE day_salts (day TEXT PRIMARY KEY, salt TEXT NOT NULL);"
      "CREATE TABLE robot_counter (one BIGINT PRIMARY KEY, gateway TEXT NOT NULL, ends BIGINT NOT NULL)"},
+    {"attendance",
+     "CREATE TABLE attendance (tour_began BIGINT NOT NULL, stop BIGINT NOT NULL, day TEXT NOT NULL,"
+     " mode TEXT NOT NULL, tour TEXT NOT NULL, exhibit TEXT NOT NULL, people BIGINT NOT NULL,"
+     " PRIMARY KEY (tour_began, stop))"},
 };
 
 }  // namespace
+
+Counted counted_of(PollQuestion question, PollAnswer answer) {
+  const auto from = [&](Counted first, PollAnswer least) {
+    return static_cast<Counted>(static_cast<int>(first) + static_cast<int>(answer) - static_cast<int>(least));
+  };
+  switch (question) {
+    case PollQuestion::liked:
+      return from(Counted::liked_yes, PollAnswer::yes);
+    case PollQuestion::satisfied:
+      return from(Counted::satisfied_yes, PollAnswer::yes);
+    case PollQuestion::price:
+      return from(Counted::price_yes, PollAnswer::yes);
+    case PollQuestion::intelligence:
+      break;
+  }
+  return from(Counted::human, PollAnswer::human);
+}
 
 std::string day_of(Time time) {
   const auto whole = static_cast<std::time_t>(time.nanoseconds / 1'000'000'000);
@@ -79,6 +100,34 @@ Result<void> Statistics::add_web_visitors(Time now, const std::string& mode, con
     }
     return {};
   });
+}
+
+Result<void> Statistics::add_attendance(Time now, const std::string& mode, const std::vector<Attendance>& stops) {
+  return database_.in_transaction([&]() -> Result<void> {
+    for (const Attendance& one : stops) {
+      auto added = database_.run(
+          "INSERT INTO attendance (tour_began, stop, day, mode, tour, exhibit, people)"
+          " VALUES ($1, $2, $3, $4, $5, $6, $7) ON CONFLICT (tour_began, stop) DO NOTHING",
+          {one.tour_began.nanoseconds, one.stop, day_of(now), mode, one.tour, one.exhibit, one.people});
+      if (!added) return done(added);
+    }
+    return {};
+  });
+}
+
+Result<std::vector<AttendanceOfDay>> Statistics::attendance(const std::string& from) {
+  auto rows = database_.run(
+      "SELECT day, mode, tour_began, stop, tour, exhibit, people FROM attendance WHERE day >= $1"
+      " ORDER BY tour_began, stop",
+      {from});
+  if (!rows) return tl::unexpected<Error>(rows.error());
+  std::vector<AttendanceOfDay> list;
+  for (const Row& row : rows->rows)
+    list.push_back({row.text(0),
+                    row.text(1),
+                    {Time{row.number(2)}, static_cast<int>(row.number(3)), row.text(4), row.text(5),
+                     static_cast<int>(row.number(6))}});
+  return list;
 }
 
 Result<bool> Statistics::may_count_robot(const std::string& gateway, Time now) {

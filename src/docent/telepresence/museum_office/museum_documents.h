@@ -16,10 +16,12 @@ struct MuseumDraft {
   std::vector<Hazard> hazards;
   Pose home{};
   std::optional<Pose> charger;
-  std::vector<Exhibit> exhibits;  ///< their pictures and links are not looked at
+  std::vector<Exhibit> exhibits;  ///< their pictures are not looked at
+  std::vector<Tour> tours;
   template <class Self, class V>
   static void visit(Self& d, V& v) {
     v("area", d.area), v("hazards", d.hazards), v("home", d.home), v("charger", d.charger), v("exhibits", d.exhibits);
+    v("tours", d.tours);
   }
 };
 struct MuseumEdition {

@@ -1,5 +1,7 @@
 #include "docent/telepresence/museum_office/museum_office.h"
 
+#include <algorithm>
+
 #include "docent/telepresence/museum_document.h"
 
 namespace docent::telepresence {
@@ -24,7 +26,17 @@ museum::Exhibit exhibit_of(const documents::Exhibit& document) {
   exhibit.long_text = document.long_text;
   exhibit.topics = document.topics;
   exhibit.web_only = document.web_only;
+  for (const documents::Link& link : document.links) exhibit.links.push_back({link.title, link.url});
   return exhibit;
+}
+
+/// A time that is none becomes one that no museum takes, so that it is named.
+museum::Tour tour_of(const documents::Tour& document) {
+  constexpr int kNever = 1440;
+  museum::Tour tour{document.id, document.title, document.exhibits, document.minutes, {}};
+  for (const std::string& time : document.daily) tour.daily.push_back(museum::parse_clock(time).value_or(kNever));
+  std::sort(tour.daily.begin(), tour.daily.end());
+  return tour;
 }
 
 }  // namespace
@@ -36,6 +48,7 @@ documents::MuseumDraft document_of(const museum::MuseumDraft& draft) {
   document.home = document_of(draft.home);
   if (draft.charger) document.charger = document_of(*draft.charger);
   for (const museum::Exhibit& exhibit : draft.exhibits) document.exhibits.push_back(document_of(exhibit));
+  for (const museum::Tour& tour : draft.tours) document.tours.push_back(document_of(tour));
   return document;
 }
 
@@ -47,6 +60,7 @@ museum::MuseumDraft draft_of(const documents::MuseumDraft& document) {
   draft.home = pose_of(document.home);
   if (document.charger) draft.charger = pose_of(*document.charger);
   for (const documents::Exhibit& exhibit : document.exhibits) draft.exhibits.push_back(exhibit_of(exhibit));
+  for (const documents::Tour& tour : document.tours) draft.tours.push_back(tour_of(tour));
   return draft;
 }
 

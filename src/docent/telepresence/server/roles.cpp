@@ -50,9 +50,9 @@ bool may_ask(Role role, const ClientMessage& message, bool screen_stops) {
   if (std::holds_alternative<WatchMessage>(message)) return true;
   const auto* stop = std::get_if<StopMessage>(&message);
   if (role == Role::kiosk && screen_stops && stop != nullptr && stop->stopped) return true;
-  const bool is_of_the_screen = std::holds_alternative<LampsMessage>(message) ||
-                                std::holds_alternative<HelpMessage>(message) ||
-                                std::holds_alternative<AnswerMessage>(message);
+  const bool is_of_the_screen =
+      std::holds_alternative<LampsMessage>(message) || std::holds_alternative<HelpMessage>(message) ||
+      std::holds_alternative<SkipMessage>(message) || std::holds_alternative<AnswerMessage>(message);
   const bool is_of_staff =
       std::holds_alternative<LeaseMessage>(message) || std::holds_alternative<SteerMessage>(message) ||
       std::holds_alternative<StopMessage>(message) || std::holds_alternative<SetHoursMessage>(message);

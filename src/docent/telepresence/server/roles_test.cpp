@@ -41,7 +41,7 @@ TEST(Roles, OnlyItsKeyMakesAPageTheRobotsScreen) {
 TEST(Roles, EachRoleAsksForWhatIsIts) {
   const ClientMessage watch = WatchMessage{true};
   const std::vector<ClientMessage> wishes{RequestMessage{}, CancelMessage{}, ChoiceMessage{}};
-  const std::vector<ClientMessage> of_the_screen{LampsMessage{}, HelpMessage{}, AnswerMessage{}};
+  const std::vector<ClientMessage> of_the_screen{LampsMessage{}, HelpMessage{}, SkipMessage{}, AnswerMessage{}};
   const std::vector<ClientMessage> of_staff{LeaseMessage{}, SteerMessage{}, StopMessage{}, SetHoursMessage{}};
   for (const Role role : {Role::observer, Role::visitor, Role::kiosk, Role::staff}) {
     for (const bool screen_stops : {false, true}) {

@@ -24,6 +24,8 @@ void ScreenDesk::take(const ClientMessage& message, std::optional<MissionPhase> 
                now);
   } else if (const auto* wanted = std::get_if<HelpMessage>(&message)) {
     answer(wanted->id, help(*wanted, phase));
+  } else if (const auto* unwanted = std::get_if<SkipMessage>(&message)) {
+    answer(unwanted->id, skip(*unwanted, phase, now));
   }
 }
 
@@ -32,6 +34,20 @@ Reason ScreenDesk::help(const HelpMessage& message, std::optional<MissionPhase> 
       phase == MissionPhase::idle || phase == MissionPhase::waiting || phase == MissionPhase::charging;
   if (!has_time) return ReasonWord::busy;
   robot_.tell(docent_msgs::Say{message.id, means_.help_text(message.language), message.language, to_text(Mood::happy)});
+  return {};
+}
+
+Reason ScreenDesk::skip(const SkipMessage& message, std::optional<MissionPhase> phase, Time now) {
+  const bool is_under_way =
+      phase == MissionPhase::driving || phase == MissionPhase::explaining || phase == MissionPhase::asking;
+  if (!is_under_way) return ReasonWord::no_such_request;
+  docent_msgs::Request wish;
+  wish.id = message.id;
+  wish.stamp = to_message(now);
+  wish.source = to_text(RequestSource::kiosk);
+  wish.kind = to_text(RequestKind::skip);
+  wish.target = message.exhibit;
+  robot_.tell(std::move(wish));
   return {};
 }
 

@@ -40,6 +40,8 @@ class ScreenDesk {
 
  private:
   [[nodiscard]] Reason help(const HelpMessage& message, std::optional<MissionPhase> phase);
+  /// It is told once: a press that is lost can be made again, and one that came late would skip another stop.
+  [[nodiscard]] Reason skip(const SkipMessage& message, std::optional<MissionPhase> phase, Time now);
   void light(const std::vector<int>& lit, Time now);
 
   RobotLink& robot_;

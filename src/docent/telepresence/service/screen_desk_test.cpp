@@ -98,6 +98,19 @@ TEST_F(ScreenDeskTest, AnAnswerIsKeptOrRefused) {
   EXPECT_EQ(desk_.fault(), "");
 }
 
+TEST_F(ScreenDeskTest, AStopIsSkippedWhileOneIsUnderWay) {
+  const SkipMessage skip{"id-1", "zuse"};
+  EXPECT_EQ(take(skip, MissionPhase::idle), Reason{ReasonWord::no_such_request});
+  EXPECT_EQ(take(skip, std::nullopt), Reason{ReasonWord::no_such_request});
+  EXPECT_TRUE(robot_.requests.empty());
+  for (const auto phase : {MissionPhase::driving, MissionPhase::explaining, MissionPhase::asking})
+    EXPECT_EQ(take(skip, phase), Reason{});
+  ASSERT_EQ(robot_.requests.size(), 3U);
+  EXPECT_EQ(robot_.requests[0].kind, "skip");
+  EXPECT_EQ(robot_.requests[0].target, "zuse");
+  EXPECT_EQ(robot_.requests[0].source, "kiosk");
+}
+
 TEST_F(ScreenDeskTest, WishesAreNoMatterOfItsOwn) {
   EXPECT_FALSE(take(RequestMessage{}, MissionPhase::idle));
   EXPECT_FALSE(take(CancelMessage{}, MissionPhase::idle));

@@ -74,8 +74,11 @@ void WebService::take(const Caller& caller, const ClientMessage& message, Time n
   if (const auto* vote = std::get_if<VoteMessage>(&message)) return take_vote(caller, *vote, now);
   if (const auto* choice = std::get_if<ChoiceMessage>(&message))
     return answer(viewer, choice->id, answers_.take(*choice, source_of(caller.role)));
-  screen_.take(message, phase_, now,
-               [this, viewer](const std::string& id, const Reason& why_not) { answer(viewer, id, why_not); });
+  screen_.take(message, phase_, now, [this, viewer, message](const std::string& id, const Reason& why_not) {
+    const auto* given = std::get_if<AnswerMessage>(&message);
+    if (given != nullptr && why_not.is_none()) counts_.answered(given->id, given->question, given->answer);
+    answer(viewer, id, why_not);
+  });
 }
 
 std::function<void(const Reason&)> WebService::answer_for(ViewerId viewer, std::string id) {

@@ -90,6 +90,7 @@ class WebService {
   void see(const docent_msgs::Limits& limits) { operator_.see(limits); }
   void see(const nav_msgs::Odometry& odometry) { counts_.see(odometry); }
   void see(const docent_msgs::Event& event) { counts_.see(event); }
+  void see(const docent_msgs::Tactile& ring) { counts_.see(ring); }
   void see(const docent_msgs::Health& health, Time now) { health_.see(health, now); }
   /// The horn sounds.
   void honk(Time now);
