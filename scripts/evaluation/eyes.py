@@ -5,7 +5,7 @@ import re
 import subprocess
 from pathlib import Path
 
-from evaluation import eyes_sight
+from evaluation import ceilings, eyes_sight
 from evaluation.tables import Verdict, print_table
 
 PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "things", "stairs"]
@@ -103,6 +103,8 @@ def protocol(build, root, options, simulations):
         real_ceiling(build, data, options, verdict)
     if options.part in (None, "mosaic"):
         mosaic(build, options, verdict)
+        if not options.slice:
+            ceilings.simulated(build, root, options, verdict)
     if options.part in (None, "rgbd"):
         rgbd(build, data, verdict)
     if options.part in (None, "docking"):

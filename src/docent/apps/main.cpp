@@ -4,6 +4,7 @@
 
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/doctor/doctor_command.h"
+#include "docent/apps/eyes/map_ceiling_command.h"
 #include "docent/apps/eyes/objects_command.h"
 #include "docent/apps/gateway/gateway_command.h"
 #include "docent/apps/golog/golog_command.h"
@@ -60,6 +61,7 @@ std::map<std::string, std::string> examples() {
           {"calibrate", "calibrate --log drive.mcap --robot robot.yaml"},
           {"replay", "replay run.mcap --museum museums/bonn --modules localize"},
           {"learn-objects", "learn-objects pictures --out objects.json"},
+          {"map-ceiling", "map-ceiling drive --out museums/bonn/ceiling.yaml --pictures stages"},
           {"listen", "listen said.wav --museum museums/bonn"},
           {"name-objects", "name-objects --book objects.json photo.jpg"},
           {"config", "config avoid > robot.yaml"},
@@ -90,7 +92,7 @@ int main(int argc, char** argv) {
                    {localize_command::add_localize_command, localize_command::add_map_command,
                     localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole),
                     objects_command::add_learn_objects_command, objects_command::add_name_objects_command,
-                    listen_command::add_listen_command}},
+                    map_ceiling_command::add_map_ceiling_command, listen_command::add_listen_command}},
                   {"Tune", {config_command::add_config_command}},
                   {"Put it into a robot of your own",
                    {ros::add_ros_command, with_robot(up_command::add_run_command, whole)}}},

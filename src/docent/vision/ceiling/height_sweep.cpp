@@ -18,9 +18,54 @@ constexpr float kFarBetter = 0.65F;  // share of another's disagreement from whi
 constexpr std::size_t kMostParts = 16;
 constexpr double kNeighbour = 0.12;  // cost of a neighbour of another part, as a share of the variances' middle
 
+/// A picture without what is slow in it: less what it shows round each block on the average. So neither the light of a
+/// picture nor that which a lens loses towards the rim makes heights differ.
+class SharpPicture {
+ public:
+  explicit SharpPicture(const ShrunkPicture& picture)
+      : columns_{picture.columns()}, rows_{picture.rows()}, block_{picture.block()} {
+    const int reach = std::max(2, columns_ / kSlow);
+    const auto width = static_cast<std::size_t>(columns_) + 1;
+    std::vector<double> sums(width * (static_cast<std::size_t>(rows_) + 1));
+    const auto at = [&](int column, int row) -> double& {
+      return sums[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
+    };
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column)
+        at(column + 1, row + 1) =
+            at(column, row + 1) + at(column + 1, row) - at(column, row) + static_cast<double>(picture.at(column, row));
+    values_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (int row = 0; row < rows_; ++row) {
+      const int low = std::max(0, row - reach), high = std::min(rows_, row + reach + 1);
+      for (int column = 0; column < columns_; ++column) {
+        const int left = std::max(0, column - reach), right = std::min(columns_, column + reach + 1);
+        const double sum = at(right, high) - at(left, high) - at(right, low) + at(left, low);
+        values_.push_back(picture.at(column, row) - static_cast<float>(sum / ((right - left) * (high - low))));
+      }
+    }
+  }
+  /// Between blocks; false outside. @param x, y  [pixels of the whole picture]
+  [[nodiscard]] bool look(double x, double y, float& value) const {
+    const double u = (x - 0.5 * (block_ - 1)) / block_, v = (y - 0.5 * (block_ - 1)) / block_;
+    if (!(u >= 0.0 && v >= 0.0 && u < columns_ - 1 && v < rows_ - 1)) return false;  // NaN neither
+    const int column = static_cast<int>(u), row = static_cast<int>(v);
+    const auto s = static_cast<float>(u - column), t = static_cast<float>(v - row);
+    const float* cell =
+        &values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)];
+    value =
+        (1.0F - t) * ((1.0F - s) * cell[0] + s * cell[1]) + t * ((1.0F - s) * cell[columns_] + s * cell[columns_ + 1]);
+    return true;
+  }
+
+ private:
+  static constexpr int kSlow = 6;  // so many windows lie beside one another across the picture, about
+  int columns_, rows_, block_;
+  std::vector<float> values_;
+};
+
 /// What the pictures show at the cells at one height: mean square of the differences from what they show together.
 std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& camera,
-                                std::span<const ShrunkPicture> pictures, std::span<const PictureUnknowns> unknowns,
+                                std::span<const SharpPicture> pictures, std::span<const PictureUnknowns> unknowns,
                                 double height, const HeightSweepParams& params, std::size_t stride, double farthest) {
   std::vector<float> sums(cells.size()), squares(cells.size()), counts(cells.size());
   const double above = height - camera.mount.position.z();
@@ -30,16 +75,16 @@ std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& cam
     const Pose2 map_from_robot{unknown.pose[0], unknown.pose[1], Angle::radians(unknown.pose[2])};
     const Pose2 robot_from_map = inverse(map_from_robot);
     const Point2 lens = map_from_robot * Point2{camera.mount.position.x(), camera.mount.position.y()};
-    const double darker = std::exp(-unknown.light[0]);
+    const auto darker = static_cast<float>(std::exp(-unknown.light[0]));
     const CellIndex low = cells.cell_at(lens - Point2{reach, reach}), high = cells.cell_at(lens + Point2{reach, reach});
     for (int row = std::max(0, low.row); row <= std::min(cells.rows - 1, high.row); ++row) {
       for (int column = std::max(0, low.column); column <= std::min(cells.columns - 1, high.column); ++column) {
         const Point2 centre = cells.centre({column, row});
         if (distance(centre, lens) > reach) continue;
         const auto pixel = camera.pixel_of(robot_from_map * centre, height);
-        ShrunkPicture::Value value;
+        float value = 0.0F;
         if (!pixel || !pictures[n].look(pixel->x(), pixel->y(), value)) continue;
-        const auto shown = static_cast<float>((value.brightness - unknown.light[1]) * darker);
+        const float shown = value * darker;
         const std::size_t cell = cells.index({column, row});
         sums[cell] += shown, squares[cell] += shown * shown, counts[cell] += 1.0F;
       }
@@ -181,8 +226,10 @@ std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<s
   return found;
 }
 
-/// Each cell's part: what its own cost and its neighbours say (iterated conditional modes).
-std::vector<std::uint8_t> parts_of(const GridFrame& cells, const std::vector<std::vector<float>>& costs) {
+/// Each cell's part: what its own cost and its neighbours say (iterated conditional modes). The part that is best for
+/// most cells is that of all that tells nothing; where no height makes the pictures agree, there is no ceiling.
+std::vector<std::uint8_t> parts_of(const GridFrame& cells, std::vector<std::vector<float>> costs,
+                                   const HeightSweepParams& params) {
   std::vector<std::uint8_t> part(cells.size(), CeilingMosaic::kUnknown);
   std::vector<float> all;
   for (const auto& of_part : costs)
@@ -191,6 +238,23 @@ std::vector<std::uint8_t> parts_of(const GridFrame& cells, const std::vector<std
   if (all.empty()) return part;
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
   const double neighbour = kNeighbour * static_cast<double>(all[all.size() / 2]);
+  std::vector<std::size_t> best(costs.size());
+  const auto unlike = static_cast<float>(params.unlike * params.unlike);
+  for (std::size_t cell = 0; cell < part.size(); ++cell) {
+    std::size_t least = 0;
+    for (std::size_t p = 1; p < costs.size(); ++p)
+      if (costs[p][cell] < costs[least][cell]) least = p;
+    if (costs[least][cell] < unlike) {
+      ++best[least];
+    } else {
+      for (auto& of_part : costs) of_part[cell] = kNone;
+    }
+  }
+  const auto main = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
+  const auto texture = static_cast<float>(params.texture * params.texture);
+  for (std::size_t p = 0; p < costs.size(); ++p)
+    if (p != main)
+      for (float& cost : costs[p]) cost += texture;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<std::uint8_t> last = part;
     for (int row = 0; row < cells.rows; ++row)
@@ -220,8 +284,9 @@ Result<void> HeightSweepParams::validate() const {
   if (!(least > 0.0 && most > least)) return fail("height_sweep.least must be > 0, and height_sweep.most above it");
   if (!(step > 0.0 && same > 0.0)) return fail("height_sweep.step and height_sweep.same must be > 0");
   if (!(texture > 0.0)) return fail("height_sweep.texture must be > 0");
-  if (!(cell > 0.0 && window > 0.0 && smallest > 0.0 && steepest > 0.0 && farthest > 0.0 && looks > 0.0))
-    return fail("height_sweep.cell, window, smallest, steepest, farthest and looks must be > 0");
+  if (!(cell > 0.0 && window > 0.0 && smallest > 0.0 && steepest > 0.0 && unlike > 0.0 && farthest > 0.0 &&
+        looks > 0.0))
+    return fail("height_sweep.cell, window, smallest, steepest, unlike, farthest and looks must be > 0");
   if (pictures == 0) return fail("height_sweep.pictures must be > 0");
   return {};
 }
@@ -256,19 +321,19 @@ CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
        height *= 1.0 + params.step)
     heights.push_back(height);
   std::vector<std::vector<float>> costs;
+  const std::vector<SharpPicture> sharp(pictures.begin(), pictures.end());
   const int reach = std::max(1, static_cast<int>(std::lround(0.5 * params.window / params.cell)));
   for (const double height : heights)
     costs.push_back(
-        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), reach));
+        smoothed(cells, disagreement(cells, camera, sharp, unknowns, height, params, stride, farthest), reach));
   CeilingMosaic mosaic{frame, heights_of_parts(cells, costs, heights, params), {}, {}};
   mosaic.part.assign(frame.size(), CeilingMosaic::kUnknown);
   mosaic.brightness.assign(frame.size(), 0.0F);
   costs.clear();
   for (const double height : mosaic.heights)
-    costs.push_back(
-        smoothed(cells, disagreement(cells, camera, pictures, unknowns, height, params, stride, farthest), 1));
+    costs.push_back(smoothed(cells, disagreement(cells, camera, sharp, unknowns, height, params, stride, farthest), 1));
   if (costs.empty()) return mosaic;
-  const std::vector<std::uint8_t> part = parts_of(cells, costs);
+  const std::vector<std::uint8_t> part = parts_of(cells, std::move(costs), params);
   for (int row = 0; row < frame.rows; ++row)
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex coarse = cells.cell_at(frame.centre({column, row}));

@@ -27,13 +27,14 @@ struct PartSample {
 
 struct PairScales {
   double brightness = 0.05;   ///< standard deviation of what is left, of 0 .. 1
-  double outlier = 3.0;       ///< of those, from which Huber's loss grows linearly
-  double independent = 60.0;  ///< residuals of a pair that count: neighbours err together
+  double outlier = 1.0;       ///< of those, from which Cauchy's loss grows slowly
+  double independent = 15.0;  ///< residuals of a pair that count: neighbours err together
 };
 
 /// Two pictures that overlap, [Minerva2000] 4.3 in pairs: what one shows, and what the other shows where it sees the
 /// same place of the ceiling. Residuals are exp((g_k - g_i) / 2) (I_i - b_i) - exp((g_i - g_k) / 2) (I_k - b_k):
-/// between the two pictures' gains, so that none gains by growing dark. Parameters: pose and light of both, then the
+/// between the two pictures' gains, so that none gains by growing dark. Parameters: pose and light of both, then how
+/// the camera is turned against its mount (about the robot's x and y axes [rad], a first approximation), then the
 /// heights [m] of the parts that the samples hit, in `parts`' order. A sample that the other does not see counts
 /// nothing.
 class MosaicPair final : public ceres::CostFunction {

@@ -3,8 +3,11 @@
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace docent::vision {
@@ -13,6 +16,7 @@ namespace {
 constexpr int kAcross = 8, kDown = 6;     // parts of a picture that have their samples each
 constexpr double kFirmly = 1e-4;          // [m, rad] of the one pose that is held without priors
 constexpr double kNearestPartner = 0.1;   // share of a picture's reach: nearer ones tell nothing of heights
+constexpr double kOfSweep = 0.3;          // share of a level's time that its heights take, about
 constexpr double kFarthestPartner = 1.3;  // share of it: farther ones hardly overlap
 
 /// What all pictures of a level have in common, and the pictures.
@@ -165,11 +169,21 @@ void hold(ceres::Problem& problem, std::span<const double> errors, std::span<con
   problem.AddResidualBlock(new ceres::NormalPrior(weights, mean), nullptr, block);
 }
 
-/// Poses, light and heights, on one level.
-void solve_level(const CeilingCamera& camera, const Level& level, std::span<const PlacedPicture> priors,
-                 const MosaicSolverParams& params, std::vector<PictureUnknowns>& unknowns, SolvedMosaic& solved) {
-  ceres::Problem problem;
-  CeilingMosaic& mosaic = solved.mosaic;
+/// Asks after each step of Levenberg-Marquardt whether it shall go on.
+class AskedStep final : public ceres::IterationCallback {
+ public:
+  explicit AskedStep(const std::function<bool(int)>& goes_on) : goes_on_{goes_on} {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    return goes_on_(step.iteration) ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+ private:
+  const std::function<bool(int)>& goes_on_;
+};
+
+/// A residual block for each pair of pictures that overlap. @param turn  of the camera
+void lay_pairs(const CeilingCamera& camera, const Level& level, const MosaicSolverParams& params, CeilingMosaic& mosaic,
+               std::vector<PictureUnknowns>& unknowns, std::array<double, 2>& turn, ceres::Problem& problem) {
   const double reach = params.steepest * (mosaic.heights.front() - camera.mount.position.z());
   const auto partners = partners_of(unknowns, reach, params.partners);
   for (std::size_t i = 0; i < unknowns.size(); ++i) {
@@ -183,11 +197,22 @@ void solve_level(const CeilingCamera& camera, const Level& level, std::span<cons
           seen_by(samples, mosaic, camera, pose_of(unknowns[i]), pose_of(unknowns[k]));
       if (common.empty()) continue;
       std::vector<double*> blocks{unknowns[i].pose.data(), unknowns[i].light.data(), unknowns[k].pose.data(),
-                                  unknowns[k].light.data()};
+                                  unknowns[k].light.data(), turn.data()};
       for (const std::uint8_t part : parts) blocks.push_back(&mosaic.heights[part]);
       problem.AddResidualBlock(new MosaicPair{camera, common, parts, level.pictures[k], params.pair}, nullptr, blocks);
     }
   }
+}
+
+/// Poses, light and heights, on one level. @param goes_on  asked after each step, of which it is told the number
+void solve_level(const Level& level, std::span<const PlacedPicture> priors, const MosaicSolverParams& params,
+                 std::vector<PictureUnknowns>& unknowns, SolvedMosaic& solved,
+                 const std::function<bool(int)>& goes_on) {
+  ceres::Problem problem;
+  const CeilingCamera camera = solved.camera;
+  CeilingMosaic& mosaic = solved.mosaic;
+  std::array<double, 2> turn{};  // of the camera
+  lay_pairs(camera, level, params, mosaic, unknowns, turn, problem);
   const std::array<double, 3> pose_errors{params.position_error, params.position_error, params.heading_error};
   const std::array<double, 3> firmly{kFirmly, kFirmly, kFirmly};
   const std::array<double, 2> light_errors{params.gain_error, params.offset_error}, neutral{};
@@ -201,6 +226,11 @@ void solve_level(const CeilingCamera& camera, const Level& level, std::span<cons
     hold(problem, light_errors, neutral, unknowns[i].light.data());
     if (!params.solve_light) problem.SetParameterBlockConstant(unknowns[i].light.data());
   }
+  if (problem.HasParameterBlock(turn.data())) {
+    const std::array<double, 2> turn_errors{params.mount_error, params.mount_error};
+    hold(problem, turn_errors, neutral, turn.data());
+    if (!params.solve_mount) problem.SetParameterBlockConstant(turn.data());
+  }
   for (double& height : mosaic.heights) {
     if (!problem.HasParameterBlock(&height)) continue;
     if (!params.solve_heights) problem.SetParameterBlockConstant(&height);
@@ -213,8 +243,13 @@ void solve_level(const CeilingCamera& camera, const Level& level, std::span<cons
   options.function_tolerance = 1e-4;
   options.num_threads = 1;  // sums in one order: the same mosaic everywhere
   options.logging_type = ceres::SILENT;
+  AskedStep asked{goes_on};
+  options.callbacks.push_back(&asked);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
+  solved.camera.mount.robot_from_camera =
+      Eigen::AngleAxisd{std::hypot(turn[0], turn[1]), Eigen::Vector3d{turn[0], turn[1], 1e-12}.normalized()} *
+      camera.mount.robot_from_camera;
   solved.unknowns = static_cast<std::size_t>(summary.num_effective_parameters_reduced);
   solved.residuals = static_cast<std::size_t>(summary.num_residuals_reduced);
   solved.squares = 2.0 * summary.final_cost / std::max<double>(1.0, static_cast<double>(solved.residuals));
@@ -233,15 +268,34 @@ GridFrame frame_of(std::span<const PlacedPicture> pictures, const MosaicSolverPa
   return {cells(high.x - low.x), cells(high.y - low.y), params.resolution, low - Point2{params.margin, params.margin}};
 }
 
-/// All of it at the height that most cells have.
-void flatten(CeilingMosaic& mosaic) {
+std::size_t largest_part(const CeilingMosaic& mosaic) {
   std::vector<std::size_t> cells(mosaic.heights.size());
   for (const std::uint8_t part : mosaic.part)
     if (part != CeilingMosaic::kUnknown) ++cells[part];
-  const auto most = static_cast<std::size_t>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+  return static_cast<std::size_t>(std::max_element(cells.begin(), cells.end()) - cells.begin());
+}
+
+/// All of it at the height that most cells have.
+void flatten(CeilingMosaic& mosaic) {
+  const std::size_t most = largest_part(mosaic);
   mosaic.heights = {mosaic.heights[most]};
   for (std::uint8_t& part : mosaic.part)
     if (part != CeilingMosaic::kUnknown) part = 0;
+}
+
+/// Of a first look at heights, by poses and a mount that are not found yet, only the largest part is to be relied upon.
+void keep_largest(CeilingMosaic& mosaic) {
+  const std::size_t most = largest_part(mosaic);
+  mosaic.heights = {mosaic.heights[most]};
+  for (std::uint8_t& part : mosaic.part) part = part == most ? std::uint8_t{0} : CeilingMosaic::kUnknown;
+}
+
+void take_over(const std::vector<PictureUnknowns>& unknowns, SolvedMosaic& solved) {
+  for (std::size_t i = 0; i < unknowns.size(); ++i) {
+    solved.pictures[i].map_from_robot = pose_of(unknowns[i]);
+    solved.pictures[i].gain = std::exp(unknowns[i].light[0]);
+    solved.pictures[i].offset = unknowns[i].light[1];
+  }
 }
 
 }  // namespace
@@ -252,8 +306,8 @@ Result<void> MosaicSolverParams::validate() const {
   if (blocks.empty() || *std::min_element(blocks.begin(), blocks.end()) < 1)
     return fail("mosaic.blocks must be > 0, and some");
   if (samples < 1 || partners < 1 || most_steps < 1) return fail("mosaic.samples, partners and most_steps must be > 0");
-  if (!(position_error > 0.0 && heading_error > 0.0 && gain_error > 0.0 && offset_error > 0.0))
-    return fail("mosaic.position_error, heading_error, gain_error and offset_error must be > 0");
+  if (!(position_error > 0.0 && heading_error > 0.0 && mount_error > 0.0 && gain_error > 0.0 && offset_error > 0.0))
+    return fail("mosaic.position_error, heading_error, mount_error, gain_error and offset_error must be > 0");
   return sweep.validate();
 }
 
@@ -264,44 +318,76 @@ Result<SolvedMosaic> solve_mosaic(const CeilingCamera& camera, std::span<const P
   for (const PlacedPicture& placed : pictures)
     if (placed.picture.columns != camera.lens.params().columns || placed.picture.rows != camera.lens.params().rows)
       return fail("a picture has not the size of the lens");
-  SolvedMosaic solved;
+  SolvedMosaic solved{camera, {}, {}, {}};
+  std::vector<std::span<const std::uint8_t>> views;
+  for (const PlacedPicture& placed : pictures) views.push_back(placed.picture.bytes);
+  if (params.solve_light) solved.field = flat_field_of(views, camera.lens);
+  std::vector<std::vector<std::uint8_t>> even;
+  std::vector<PlacedPicture> evened{pictures.begin(), pictures.end()};
+  for (PlacedPicture& placed : evened) {
+    even.push_back(flattened(placed.picture.bytes, placed.picture.columns, solved.field));
+    placed.picture.bytes = even.back();
+  }
   solved.pictures.assign(pictures.begin(), pictures.end());
   std::vector<PictureUnknowns> unknowns;
   for (const PlacedPicture& placed : pictures)
     unknowns.push_back(
         {{placed.map_from_robot.x, placed.map_from_robot.y, placed.map_from_robot.theta.radians()}, {0.0, 0.0}});
   const GridFrame frame = frame_of(pictures, params);
-  const auto say = [&](const std::string& stage, double share) { return !progress || progress(stage, share); };
-  const auto sweep = [&](const Level& level) {
-    solved.mosaic = sweep_heights(frame, camera, level.pictures, unknowns, params.sweep);
-    if (!params.solve_heights && !solved.mosaic.heights.empty()) flatten(solved.mosaic);
+  const auto levels = static_cast<double>(params.blocks.size());
+  const auto say = [&](const std::string& stage, double share, bool is_end) {
+    return !progress || progress({stage, share, is_end, solved});
   };
-  const std::size_t levels = params.blocks.size();
-  const std::size_t sweeps_again = levels > 1 ? 1 : 0;  // before this level the poses are good to a coarse pixel
-  for (std::size_t i = 0; i < levels; ++i) {
-    const Level level = level_of(camera, pictures, params.blocks[i], params);
+  const std::size_t sweeps_again = params.blocks.size() > 1 ? 1 : 0;  // before it the poses are good to a coarse pixel
+  bool goes_on = true;
+  for (std::size_t i = 0; i < params.blocks.size() && goes_on; ++i) {
+    const Level level = level_of(solved.camera, evened, params.blocks[i], params);
+    const std::string pixels = ", blocks of " + std::to_string(params.blocks[i]) + " pixels";
+    const auto share = [&](double of_level) { return (static_cast<double>(i) + of_level) / levels; };
     if (i == 0 || i == sweeps_again) {
       if (i == 0 && params.solve_light) guess_light(level, unknowns);
-      if (!say("heights", (static_cast<double>(i) + 0.1) / static_cast<double>(levels)) && i > 0) break;
-      sweep(level);
+      if (!say("heights" + pixels, share(0.0), false) && i > 0) break;
+      solved.mosaic = sweep_heights(frame, solved.camera, level.pictures, unknowns, params.sweep);
+      if (!params.solve_heights && !solved.mosaic.heights.empty()) flatten(solved.mosaic);
+      if (i == 0 && sweeps_again == 1 && !solved.mosaic.heights.empty()) keep_largest(solved.mosaic);
       if (solved.mosaic.heights.empty())
         return fail("the ceiling is too plain, or its pictures are too few, to tell its height");
+      take_over(unknowns, solved);
+      goes_on = say("heights" + pixels, share(kOfSweep), true);
     }
-    solve_level(camera, level, pictures, params, unknowns, solved);
-    if (!say("poses, heights and light, " + std::to_string(params.blocks[i]) + " pixels a block",
-             (static_cast<double>(i) + 0.9) / static_cast<double>(levels)))
-      break;
+    const std::string stage = "poses, heights and light" + pixels;
+    solve_level(level, pictures, params, unknowns, solved, [&](int step) {
+      goes_on = goes_on && say(stage, share(kOfSweep + (1.0 - kOfSweep) * step / (params.most_steps + 1.0)), false);
+      return goes_on;
+    });
+    take_over(unknowns, solved);
+    goes_on = say(stage, share(1.0), true) && goes_on;
   }
-  for (std::size_t i = 0; i < unknowns.size(); ++i) {
-    solved.pictures[i].map_from_robot = pose_of(unknowns[i]);
-    solved.pictures[i].gain = std::exp(unknowns[i].light[0]);
-    solved.pictures[i].offset = unknowns[i].light[1];
-  }
-  MosaicDrawing drawing{solved.mosaic, camera, params.steepest};
-  for (const PlacedPicture& placed : solved.pictures) drawing.add(placed);
-  solved.mosaic = drawing.mosaic();
-  say("drawn", 1.0);
+  solved.mosaic = drawn(solved, params);
   return solved;
+}
+
+CeilingMosaic drawn(const SolvedMosaic& solved, const MosaicSolverParams& params, double resolution) {
+  CeilingMosaic mosaic = solved.mosaic;
+  if (resolution > mosaic.frame.resolution) {
+    const GridFrame fine = mosaic.frame;
+    const double share = fine.resolution / resolution;
+    mosaic.frame = {std::max(1, static_cast<int>(fine.columns * share)),
+                    std::max(1, static_cast<int>(fine.rows * share)), resolution, fine.origin};
+    mosaic.part.assign(mosaic.frame.size(), CeilingMosaic::kUnknown);
+    for (int row = 0; row < mosaic.frame.rows; ++row)
+      for (int column = 0; column < mosaic.frame.columns; ++column) {
+        const CellIndex cell = fine.cell_at(mosaic.frame.centre({column, row}));
+        if (fine.holds(cell)) mosaic.part[mosaic.frame.index({column, row})] = solved.mosaic.part[fine.index(cell)];
+      }
+  }
+  MosaicDrawing drawing{std::move(mosaic), solved.camera, params.steepest};
+  for (PlacedPicture placed : solved.pictures) {
+    const std::vector<std::uint8_t> even = flattened(placed.picture.bytes, placed.picture.columns, solved.field);
+    placed.picture.bytes = even;
+    drawing.add(placed);
+  }
+  return drawing.mosaic();
 }
 
 }  // namespace docent::vision
