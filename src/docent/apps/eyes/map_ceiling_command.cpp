@@ -17,12 +17,12 @@
 #include <string>
 #include <vector>
 
-#include "docent/apps/eyes/ceiling_drive.h"
 #include "docent/apps/eyes/ceiling_figure.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/log.h"
 #include "docent/base/files.h"
+#include "docent/vision/ceiling/drive/ceiling_drive.h"
 #include "docent/vision/ceiling/mosaic_file.h"
 
 namespace docent::apps::map_ceiling_command {
@@ -88,7 +88,7 @@ class Watch {
 };
 
 /// As the believed ones were given.
-void save_poses(const std::string& path, const CeilingDrive& drive, const vision::SolvedMosaic& solved) {
+void save_poses(const std::string& path, const vision::CeilingDrive& drive, const vision::SolvedMosaic& solved) {
   std::string text = "picture,map_x,map_y,map_theta,gain,offset\n";
   for (std::size_t i = 0; i < solved.pictures.size(); ++i) {
     const auto& placed = solved.pictures[i];
@@ -102,7 +102,7 @@ void save_poses(const std::string& path, const CeilingDrive& drive, const vision
 }
 
 /// [m] root of the mean square way from the believed poses to those found.
-double moved(const CeilingDrive& drive, const vision::SolvedMosaic& solved) {
+double moved(const vision::CeilingDrive& drive, const vision::SolvedMosaic& solved) {
   double squares = 0.0;
   for (std::size_t i = 0; i < solved.pictures.size(); ++i) {
     const double way = distance(solved.pictures[i].map_from_robot.position(), drive.map_from_robot[i].position());
@@ -112,7 +112,7 @@ double moved(const CeilingDrive& drive, const vision::SolvedMosaic& solved) {
 }
 
 /// [degrees] by which the camera was found to look another way than it is said to.
-double turned(const CeilingDrive& drive, const vision::SolvedMosaic& solved) {
+double turned(const vision::CeilingDrive& drive, const vision::SolvedMosaic& solved) {
   const Eigen::Matrix3d& told = drive.camera.mount.robot_from_camera;
   return Eigen::AngleAxisd{solved.camera.mount.robot_from_camera * told.transpose()}.angle() / kDegree;
 }
@@ -136,7 +136,7 @@ void map_ceiling(Options& options) {
   if (std::filesystem::path{options.out}.extension() != ".yaml")
     throw CommandFailed{"--out " + options.out + ": expected a name that ends in .yaml", 2};
   if (!options.stages.empty()) std::filesystem::create_directories(options.stages);
-  const CeilingDrive drive = value_or_fail(read_ceiling_drive(options.drive));
+  const vision::CeilingDrive drive = value_or_fail(vision::read_ceiling_drive(options.drive));
   const double before = processor_seconds();
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { Watch::is_asked_to_end = true; });
   Watch watch{options};

@@ -4,6 +4,7 @@
 #include "docent/apps/laboratory/attract/attract_command.h"
 #include "docent/apps/laboratory/crowd/crowd_command.h"
 #include "docent/apps/laboratory/evaluate/evaluate_command.h"
+#include "docent/apps/laboratory/follow_ceiling/follow_ceiling_command.h"
 #include "docent/apps/laboratory/learn/learn_command.h"
 #include "docent/apps/laboratory/plan/plan_command.h"
 #include "docent/apps/laboratory/rooms/rooms_command.h"
@@ -32,7 +33,7 @@ Program docent_lab(const std::string& version) {
                   {evaluate_command::add_evaluate_command, with_robot(crowd_command::add_crowd_command, robot),
                    plan_command::add_plan_command}},
                  {"Look at maps", {rooms_command::add_rooms_command, score_map_command::add_score_map_command}},
-                 {"See", {take_pictures_command::add_take_pictures_command}},
+                 {"See", {take_pictures_command::add_take_pictures_command, follow_ceiling_command::add_follow_ceiling_command}},
                  {"Learn",
                   {learn_command::add_learn_command, train_sonar_command::add_train_sonar_command,
                    with_robot(attract_command::add_attract_command, robot)}}},

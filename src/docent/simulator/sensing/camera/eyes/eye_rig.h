@@ -21,7 +21,7 @@ struct EyeRig {
 };
 
 struct RigOptions {
-  std::optional<CameraMount> up_mount, depth_mount;  ///< as the robot is told; without: as it was drawn first
+  std::optional<CameraMount> up_mount{}, depth_mount{};  ///< as the robot is told; without: as it was drawn first
   int width = 320;                                   ///< [pixels] of all pictures
   int height = 240;                                  ///< [pixels]
   bool fisheye = false;                              ///< the upward one is; otherwise a pinhole with distortion

@@ -1,4 +1,4 @@
-#include "docent/apps/eyes/ceiling_drive.h"
+#include "docent/vision/ceiling/drive/ceiling_drive.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "docent/grid/map_image.h"
 #include "docent/vision/lens/lens_file.h"
 
-namespace docent::apps::map_ceiling_command {
+namespace docent::vision {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ Result<CeilingDrive> read_ceiling_drive(const fs::path& folder) {
   return drive;
 }
 
-}  // namespace docent::apps::map_ceiling_command
+}  // namespace docent::vision

@@ -1,14 +1,16 @@
-#include "docent/apps/eyes/ceiling_drive.h"
+#include "docent/vision/ceiling/drive/ceiling_drive.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string>
 
-#include "docent/apps/shared/temporary_folder.h"
 #include "docent/base/files.h"
 #include "docent/pictures/png/png_file.h"
 
-namespace docent::apps::map_ceiling_command::ceiling_drive_test {
+namespace docent::vision::ceiling_drive_test {
 namespace {
 
 constexpr const char* kCameras =
@@ -20,11 +22,13 @@ constexpr const char* kPoses =
 
 class CeilingDriveTest : public ::testing::Test {
  protected:
+  CeilingDriveTest() { std::filesystem::create_directories(folder_); }
+  ~CeilingDriveTest() override { std::filesystem::remove_all(folder_); }
   void put(const char* name, std::string_view content) const {
-    ASSERT_TRUE(write_file_atomically(folder_.path() / name, content));
+    ASSERT_TRUE(write_file_atomically(folder_ / name, content));
   }
   void put_whole() const {
-    std::filesystem::create_directories(folder_.path() / "up");
+    std::filesystem::create_directories(folder_ / "up");
     put("cameras.yaml", kCameras);
     put("poses.csv", kPoses);
     std::vector<std::uint8_t> grey(48, 100);
@@ -33,18 +37,19 @@ class CeilingDriveTest : public ::testing::Test {
       put(name, *pictures::encode_png(8, 6, std::span<const std::uint8_t>{grey}));
   }
   [[nodiscard]] std::string fault() const {
-    const auto drive = read_ceiling_drive(folder_.path());
+    const auto drive = read_ceiling_drive(folder_);
     if (drive) return "";
     const std::string& message = drive.error().message;
-    EXPECT_EQ(message.rfind(folder_.path().string() + "/", 0), 0U) << message;
-    return message.substr(folder_.path().string().size() + 1);
+    EXPECT_EQ(message.rfind(folder_.string() + "/", 0), 0U) << message;
+    return message.substr(folder_.string().size() + 1);
   }
-  const TemporaryFolder folder_;
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("docent_ceiling_drive_" + std::to_string(getpid()));
 };
 
 TEST_F(CeilingDriveTest, ReadsPicturesPosesAndTheCamera) {
   put_whole();
-  const auto drive = read_ceiling_drive(folder_.path());
+  const auto drive = read_ceiling_drive(folder_);
   ASSERT_TRUE(drive) << drive.error().message;
   EXPECT_EQ(drive->numbers, (std::vector<int>{3, 7}));
   EXPECT_EQ(drive->map_from_robot[1].x, 1.75);
@@ -75,7 +80,7 @@ TEST_F(CeilingDriveTest, NamesFileAndLineOfWhatCannotBe) {
   put("poses.csv", kPoses);
   put("up/000007.png", *pictures::encode_png(4, 4, std::span<const std::uint8_t>{std::vector<std::uint8_t>(16)}));
   EXPECT_EQ(fault(), "up/000007.png:1: is 4 x 4 pixels, but the lens is said to have 8 x 6");
-  std::filesystem::remove(folder_.path() / "up/000007.png");
+  std::filesystem::remove(folder_ / "up/000007.png");
   EXPECT_EQ(fault().rfind("up/000007.png", 0), 0U) << fault();
   std::string cameras = kCameras;
   cameras.replace(cameras.find("tilt: 90"), 8, "tilt: 10");
@@ -86,4 +91,4 @@ TEST_F(CeilingDriveTest, NamesFileAndLineOfWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace docent::apps::map_ceiling_command::ceiling_drive_test
+}  // namespace docent::vision::ceiling_drive_test
