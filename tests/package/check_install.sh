@@ -27,11 +27,12 @@ exec "$@"
 END
 cat >"$root/usr/local/bin/systemctl" <<'END'
 #!/bin/bash
-# start, restart, stop of docent by its unit; reload of nginx.
+# start, restart, try-restart, stop of docent by its unit; reload of nginx.
 unit=/usr/lib/systemd/system/docent.service
 service=61184  # a user that exists while the unit runs, as DynamicUser makes one
 case "$*" in
   "stop docent") [ ! -f /run/docent.pid ] || { kill "$(cat /run/docent.pid)"; for i in $(seq 60); do kill -0 "$(cat /run/docent.pid)" 2>/dev/null || break; sleep 0.2; done; rm -f /run/docent.pid; } ;;
+  "try-restart docent") [ ! -f /run/docent.pid ] || systemctl restart docent ;;
   "start docent" | "restart docent")
     systemctl stop docent
     for place in lib cache; do
@@ -76,6 +77,8 @@ cat "$work/https.yaml" >>"$root/etc/docent/robot.yaml"
   echo 'page() { curl -sS --cacert /etc/ssl/certs/museum.pem --cookie-jar /tmp/jar --cookie /tmp/jar "$@"; }'
   echo 'wait_for() { for i in $(seq 120); do curl -s -H "Host: localhost" "http://127.0.0.1:8080$1" 2>/dev/null | grep -q "$2" && return 0; sleep 1; done; echo "no $1"; tail -5 /tmp/docent.log; return 1; }'
   block "Your own museum"
+  echo '[ ! -f /run/docent.pid ] || { echo "copying a museum has started the robot"; exit 1; }'
+  echo 'systemctl start docent'
   echo 'wait_for /api/museum.json "My own museum"'
   # The commands ask for a password on standard input, without a terminal.
   block "Accounts" | sed 's/#.*//; s/web-account add.*/& <<<"a long pass phrase 4"/'
