@@ -40,6 +40,10 @@ std::string promise_of(const std::filesystem::path& path) {
 }  // namespace
 
 Result<std::unique_ptr<MapImage>> open_map_image(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto type = std::filesystem::status(path, ignored).type();
+  if (type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character)  // could wait for ever
+    return fail(path.string() + ": cannot be read: it is a pipe or a device, and no file");
   std::ifstream file{path, std::ios::binary};
   std::array<char, 8> bytes{};
   if (!file || std::filesystem::is_directory(path))

@@ -20,11 +20,12 @@ class PgmImage final : public MapImage {
   Result<void> open() {
     take();
     is_text_ = take() == '2';
-    long white = 0;
-    for (long* number : {&header.width, &header.height, &white})
-      if (!read_number(*number)) return fault("not a PGM image: expected a number in the header");
+    constexpr const char* kNoNumber = "not a PGM image: expected a number in the header";
+    if (!read_number(header.width) || !read_number(header.height)) return fault(kNoNumber);
     if (header.width <= 0 || header.height <= 0 || header.width > kMostOnASide || header.height > kMostOnASide)
       return fault("PGM of " + std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels");
+    long white = 0;
+    if (!read_number(white)) return fault(kNoNumber);
     if (white <= 0 || white > 65535) return fault("PGM with a white of " + std::to_string(white));
     header.white = static_cast<std::uint32_t>(white);
     sample_ = white > 255 ? 2 : 1;
@@ -35,9 +36,12 @@ class PgmImage final : public MapImage {
     }
     const std::uintmax_t wanted = count * sample_;
     const bool has_lines_of_windows = lines_of_windows_ > 0;
-    const int end = take();  // the one white space behind the header
+    if (file_.peek() == '#') pass_comment();  // its line end is the white space behind the header
+    const int end = take();                   // the one white space behind the header
     if (has_lines_of_windows && end == '\r' && rest() > wanted && file_.peek() == '\n')
       take();
+    else if (rest() > wanted && file_.peek() == '#')
+      pass_late_comments(rest() - wanted);
     else if (rest() > wanted)
       pass_white_space(rest() - wanted);
     if (rest() < wanted)
@@ -76,7 +80,8 @@ class PgmImage final : public MapImage {
 
  private:
   static constexpr long kMostOnASide = 1'000'000;
-  static constexpr std::uintmax_t kMostWhiteSpace = 4;  ///< [bytes]
+  static constexpr long kMostOfANumber = 1'000'000'000;  ///< what is larger is taken for it, and too large for all uses
+  static constexpr std::uintmax_t kMostWhiteSpace = 4;   ///< [bytes]
 
   [[nodiscard]] tl::unexpected<Error> fault(const std::string& what) const {
     return fail(name_ + ":" + std::to_string(line_) + ": " + what);
@@ -105,6 +110,31 @@ class PgmImage final : public MapImage {
     file_.seekg(here);
     at_ -= count;
   }
+  /// A comment, without the end of its line.
+  void pass_comment() {
+    for (int c = file_.peek(); c != '\n' && c != '\r' && c != std::char_traits<char>::eof(); c = file_.peek()) take();
+  }
+  /// Some programs write a comment behind the header's last line, where the pixels begin. That it is none of them shows
+  /// in the file's size: exactly its lines are too much.
+  void pass_late_comments(std::uintmax_t most) {
+    const auto here = file_.tellg();
+    const std::uintmax_t at = at_;
+    const long line = line_;
+    while (at_ - at < most && file_.peek() == '#') {
+      while (at_ - at < most && file_.peek() != '\n') take();
+      if (at_ - at < most) take();
+    }
+    file_.clear();
+    file_.seekg(-1, std::ios::cur);
+    if (at_ - at == most && file_.get() == '\n') {
+      header.note = "a comment stands behind its header, where the pixels begin: it is left out";
+      return;
+    }
+    file_.clear();
+    file_.seekg(here);
+    at_ = at;
+    line_ = line;
+  }
   [[nodiscard]] bool ends_in_white_space() {
     const auto here = file_.tellg();
     file_.seekg(-1, std::ios::end);
@@ -116,14 +146,14 @@ class PgmImage final : public MapImage {
   bool read_number(long& number) {
     for (int c = file_.peek(); c == '#' || std::isspace(c) != 0; c = file_.peek()) {
       if (c == '#')
-        while (c != '\n' && c != '\r' && c != std::char_traits<char>::eof()) c = take();
+        pass_comment();
       else
         take();
     }
     number = 0;
     bool found = false;
-    while (std::isdigit(file_.peek()) != 0 && number < 100'000'000) {
-      number = number * 10 + (take() - '0');
+    while (std::isdigit(file_.peek()) != 0) {
+      number = std::min(number * 10 + (take() - '0'), kMostOfANumber);
       found = true;
     }
     return found;

@@ -80,6 +80,8 @@ Result<double> yaw_of(const std::string& text, std::vector<std::string>& notes) 
   const double yaw = std::strtod(plain.c_str(), &end);
   if (plain.empty() || *end != '\0' || !std::isfinite(yaw))
     return fail("origin must be [x, y, yaw], found '" + text + "'");
+  constexpr double kTurn = 6.2832;  // [rad] as people round it: nobody writes more than that and means radians
+  if (std::abs(yaw) > kTurn) return fail("the origin's yaw is in radians, and " + text + " is more than a turn");
   return std::remainder(yaw, 2.0 * std::numbers::pi);
 }
 

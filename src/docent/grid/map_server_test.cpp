@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 
@@ -235,6 +236,39 @@ TEST_F(Maps, HeadersThatEndInMoreThanOneWhiteSpaceShiftNothing) {
   const auto either = read_map(folder_ / "m.yaml");
   EXPECT_EQ(either->map.cells, (std::vector<std::int8_t>{0, 0, 100, 0}));
   EXPECT_EQ(either->notes.size(), 1U);
+}
+
+TEST_F(Maps, ACommentBehindTheHeaderIsNoPixels) {
+  write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
+  const std::string pixels{'\0', '\xfe', '\xcd', '\xfe'};
+  const std::vector<std::int8_t> right{-1, 0, 100, 0};
+  for (const std::string end : {"# of a saver\n", "\n# of a saver\n", " # of a saver\n", "\n# two\n#\n"}) {
+    write("m.pgm", "P5 2 2\n255" + end + pixels);
+    const auto read = read_map(folder_ / "m.yaml");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->map.cells, right) << end;
+    EXPECT_EQ(read->notes.size(), end.front() == '#' ? 0U : 1U) << end;
+  }
+  for (const std::string tail : {"", "\n", "more"}) {  // a shade of 35 is no comment
+    write("m.pgm", "P5 2 2\n255\n#" + std::string{"\xfe\xfe\xfe"} + tail);
+    EXPECT_EQ(read_map(folder_ / "m.yaml")->map.cells, (std::vector<std::int8_t>{0, 0, 100, 0})) << tail;
+  }
+}
+
+TEST_F(Maps, NumbersThatCannotBeAreNamedAsTheyStand) {
+  write("m.pgm", "P5\n4294967297 80\n255\n");
+  const std::string plain = "image: m.pgm\nresolution: 1\norigin: [0, 0, ";
+  EXPECT_EQ(fault_of(plain + "0]\n"), "m.pgm:2: PGM of 1000000000 x 80 pixels");
+  write("m.pgm", "P5 1 1 255\n\xfe");
+  for (const std::string degrees : {"90", "-180", "1e300"})
+    EXPECT_EQ(fault_of(plain + degrees + "]\n"),
+              "m.yaml:3: the origin's yaw is in radians, and " + degrees + " is more than a turn");
+}
+
+TEST_F(Maps, AnImageThatIsAPipeIsNotWaitedFor) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.pgm").c_str(), 0600), 0);
+  EXPECT_EQ(fault_of("image: pipe.pgm\nresolution: 1\norigin: [0, 0, 0]\n"),
+            "pipe.pgm: cannot be read: it is a pipe or a device, and no file");
 }
 
 TEST_F(Maps, MorePixelsThanTheHeaderSaysAndShadesAboveItsWhiteAreSaid) {

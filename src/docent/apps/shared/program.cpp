@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <sstream>
@@ -116,6 +118,19 @@ std::vector<std::string> names_of_commands(const Program& program) {
   return names_of(app);
 }
 
+namespace {
+
+/// What a full disk did not take of the output would otherwise be missing without a word: `docent config > robot.yaml`.
+bool is_all_said(const char* name) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  std::fprintf(stderr, "%s: the output cannot be written%s%s\n", name, errno != 0 ? ": " : "",
+               errno != 0 ? std::strerror(errno) : "");
+  return false;
+}
+
+}  // namespace
+
 int run(const Program& program, int argc, const char* const* argv) {
   CLI::App app{program.meaning, program.name};
   app.require_subcommand(1);
@@ -127,7 +142,7 @@ int run(const Program& program, int argc, const char* const* argv) {
   const char* name = program.name.c_str();
   try {
     app.parse(argc, argv);
-    return 0;
+    return is_all_said(name) ? 0 : 1;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::fprintf(stderr, "%s: %s\n", name, fault_of(program, app, argc, argv, error.what()).c_str());

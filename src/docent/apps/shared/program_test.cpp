@@ -1,8 +1,12 @@
 #include "docent/apps/shared/program.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
 #include <stdexcept>
 
 #include "docent/apps/shared/arguments.h"
@@ -64,6 +68,22 @@ TEST_F(ProgramWithCommands, AWordOfAListIsToldFromThoseThatThereAre) {
   const Finished finished = run_with({"drive", "--crowd", "busi"});
   EXPECT_EQ(finished.code, 2);
   EXPECT_NE(finished.error.find("busi not in {quiet,busy}; did you mean 'busy'?"), std::string::npos) << finished.error;
+}
+
+TEST_F(ProgramWithCommands, OutputThatAFullDiskDoesNotTakeIsAFault) {
+  ::testing::internal::CaptureStderr();
+  std::fflush(stdout);
+  const int before = ::dup(STDOUT_FILENO), full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(::dup2(full, STDOUT_FILENO), 0);
+  std::printf("what a command says\n");
+  const std::array<const char*, 2> words{"guide", "drive"};
+  const int code = run(program(), static_cast<int>(words.size()), words.data());
+  ::dup2(before, STDOUT_FILENO);
+  ::close(before);
+  ::close(full);
+  std::clearerr(stdout);
+  EXPECT_EQ(code, 1);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "guide: the output cannot be written: No space left on device\n");
 }
 
 TEST_F(ProgramWithCommands, RunsTheOneThatIsNamed) {
