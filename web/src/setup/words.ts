@@ -158,7 +158,7 @@ const fr: SetupWords = {
   mapAgainHelp: 'Le plan et tout ce qui y est dessiné sont oubliés.',
   keepMarks: 'Garder ce qui est dessiné',
   hazardsHelp: 'Marquez ce qu’aucun capteur ne voit : verre, escaliers qui descendent, estrades et plaques. Dessinez-le, ou allez-y en le conduisant : choisissez « Dessiner un danger » et posez un coin là où est le robot. Tirez la limite de la zone là où il ne doit pas aller.',
-  exhibitsHelp: 'Conduisez le robot devant un objet, choisissez « Nouvel objet » et dites qu’il est devant ; ou cliquez l’objet sur le plan. Écrivez ensuite ce qu’il y raconte.',
+  exhibitsHelp: 'Conduisez le robot devant un objet, choisissez « Nouvel objet » et dites qu’il est devant ; ou cliquez sur l’objet sur le plan. Écrivez ensuite ce qu’il y raconte.',
   knowsPlace: 'Le robot sait où il est.',
   seeksPlace: 'Le robot cherche sa place. Faites-le rouler un peu.',
   checkMap: 'Plan de {}',

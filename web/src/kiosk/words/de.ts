@@ -5,7 +5,7 @@ export default {
   invite: 'Darf ich Sie herumführen?',
   press: 'Drücken Sie einen Knopf oder tippen Sie auf den Bildschirm.',
   goingHome: 'Ich fahre gerade nach Hause.',
-  charging: 'Ich lade meine Batterie. Ich komme, sobald sie voll ist.',
+  charging: 'Ich lade meinen Akku. Ich komme, sobald er voll ist.',
   waiting: 'Ich habe gerade Zeit. Wohin soll es gehen?',
   otherTours: 'Andere Führungen',
   help: 'Wie geht das?',
