@@ -120,7 +120,8 @@ struct Belief {
   }
 };
 
-/// A fix: where another sensor than the lasers finds the robot by itself. Sent with each picture or reading that says anything.
+/// A fix: where another sensor than the lasers finds the robot by itself. Sent with each picture or reading that says
+/// anything.
 struct PoseFix {
   static constexpr const char* kType = "docent_msgs/msg/PoseFix";
   std_msgs::Header header;  ///< frame map; when the picture was taken

@@ -62,8 +62,8 @@ class PoseWatch {
   /// Somebody says where the robot stood at `stamp`; where nobody knows odometry of then, it stands there now. The
   /// belief is due. None: nothing was heard of odometry, so the robot cannot take it.
   [[nodiscard]] std::optional<Moment> start_where_told(const BeliefMode& mode, Time stamp);
-  /// Another sensor has found the robot at `fix.time`; its odometry is filled in. Unheard where nobody knows odometry of
-  /// then.
+  /// Another sensor has found the robot at `fix.time`; its odometry is filled in. Unheard where nobody knows odometry
+  /// of then.
   void take_fix(PoseFix fix);
   /// Somebody has carried the robot, as its scans say.
   void uproot() { localizer_->uproot(); }

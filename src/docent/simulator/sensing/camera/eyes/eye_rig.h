@@ -22,9 +22,9 @@ struct EyeRig {
 
 struct RigOptions {
   std::optional<CameraMount> up_mount{}, depth_mount{};  ///< as the robot is told; without: as it was drawn first
-  int width = 320;                                   ///< [pixels] of all pictures
-  int height = 240;                                  ///< [pixels]
-  bool fisheye = false;                              ///< the upward one is; otherwise a pinhole with distortion
+  int width = 320;                                       ///< [pixels] of all pictures
+  int height = 240;                                      ///< [pixels]
+  bool fisheye = false;                                  ///< the upward one is; otherwise a pinhole with distortion
 };
 
 /// As the drawings of the robot have it and a calibration found it.
