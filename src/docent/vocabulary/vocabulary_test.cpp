@@ -22,7 +22,7 @@ void expect_each_has_its_word(E last) {
 }
 
 TEST(Vocabulary, EachValueHasItsWord) {
-  expect_each_has_its_word(RequestKind::room);
+  expect_each_has_its_word(RequestKind::skip);
   expect_each_has_its_word(RequestSource::vote);
   expect_each_has_its_word(RequestStatus::cancelled);
   expect_each_has_its_word(OperatingMode::hours);

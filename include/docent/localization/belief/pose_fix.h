@@ -11,7 +11,7 @@ namespace docent::localization {
 
 /// Where another sensor finds the robot by itself, from anywhere: a camera that looks at the ceiling.
 struct PoseFix {
-  Pose2 map_from_robot;
+  Pose2 map_from_robot;                ///< when it was seen
   std::array<double, 9> covariance{};  ///< row-major x, y [m], theta [rad]
   Pose2 odom_from_robot;               ///< then
   Time time{};                         ///< of the picture
@@ -24,6 +24,7 @@ class FixEvidence final : public ObservationModel {
   static constexpr double kOldest = 1.5;    ///< [s] of a fix
   static constexpr double kFarthest = 1.0;  ///< [m] driven since, at most: odometry carries it no farther
 
+  /// A newer fix, in place of the one before.
   void take(const PoseFix& fix) { fix_ = fix, is_used_ = false; }
   bool observe(const ObservationMoment& moment) override;
   void add_costs(std::span<const Pose2> map_from_robot, std::span<float> nats) const override;

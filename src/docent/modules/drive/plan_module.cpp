@@ -1,5 +1,6 @@
 #include "docent/modules/drive/plan_module.h"
 
+#include "docent/modules/shared/fit_target.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"
@@ -48,7 +49,7 @@ docent_msgs::Target message_of(const planning::Aim& aim, const std::string& goal
     target.via_x.push_back(via.x);
     target.via_y.push_back(via.y);
   }
-  return target;
+  return fit_target(std::move(target));
 }
 
 docent_msgs::Gaze message_of(const planning::Look& look, Time now) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "docent/modules/shared/belief_cells.h"
+#include "docent/modules/shared/fit_target.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/pose_tracker.h"
@@ -185,7 +186,7 @@ class ExploreModule final : public Module {
         target.via_y.push_back(via.y);
       }
     }
-    target_.publish(std::move(target));
+    target_.publish(fit_target(std::move(target)));
   }
 
   void publish_belief() {
