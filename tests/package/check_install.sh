@@ -60,7 +60,7 @@ sed -i 's/^OPTIONS=.*/OPTIONS="--sim --crowd quiet"/' "$root/etc/default/docent"
 
 # The integrator's own museum: another name, other words.
 cp -r museums/bonn "$root/tmp/my-museum"
-sed -i 's/^name: .*/name: {en: "My own museum", de: "Mein Museum"}/' "$root/tmp/my-museum/museum.yaml"
+sed -i 's/^name: .*/name: {en: "My own museum", de: "Mein Museum", fr: "Mon musée"}/' "$root/tmp/my-museum/museum.yaml"
 mkdir -p "$root/etc/ssl/private"
 quietly inside openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=museum.example -addext subjectAltName=DNS:museum.example \
   -keyout /etc/ssl/private/museum.key -out /etc/ssl/certs/museum.pem
