@@ -1,5 +1,8 @@
 #include "docent/apps/shared/program.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -121,7 +124,10 @@ std::vector<std::string> names_of_commands(const Program& program) {
 namespace {
 
 /// What a full disk did not take of the output would otherwise be missing without a word: `docent config > robot.yaml`.
+/// A reader at the other end of a pipe may leave when it has what it wants: `docent up | grep -q open`.
 bool is_all_said(const char* name) {
+  struct stat out {};
+  if (::fstat(STDOUT_FILENO, &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode))) return true;
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   std::fprintf(stderr, "%s: the output cannot be written%s%s\n", name, errno != 0 ? ": " : "",
