@@ -1,6 +1,6 @@
 #include "docent/modules/drive/plan_module.h"
 
-#include "docent/modules/shared/fit_target.h"
+#include "docent/messages/fit_target.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/pose_tracker.h"
 #include "docent/modules/shared/scanners.h"

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "docent/messages/fit_target.h"
 #include "docent/modules/shared/belief_cells.h"
-#include "docent/modules/shared/fit_target.h"
 #include "docent/modules/shared/grid_message.h"
 #include "docent/modules/shared/person_beams.h"
 #include "docent/modules/shared/pose_tracker.h"

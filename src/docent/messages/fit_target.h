@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "docent/messages/topics.h"
-#include "docent/vocabulary/vocabulary.h"
+#include "docent/messages/driving_messages.h"
+#include "docent/messages/message_fitness.h"
 
-namespace docent::modules {
+namespace docent {
 
 /// A target as it may be sent: one that stands still, where a number of it is none of this world. An odometry that has
 /// gone mad puts ways there.
@@ -14,8 +14,8 @@ namespace docent::modules {
   docent_msgs::Target standing;
   standing.header = std::move(target.header);
   standing.goal_id = std::move(target.goal_id);
-  standing.mode = to_text(DriveMode::stop);
+  standing.mode = "stop";
   return standing;
 }
 
-}  // namespace docent::modules
+}  // namespace docent
