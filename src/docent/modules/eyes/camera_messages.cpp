@@ -39,6 +39,11 @@ float metres(const std::uint8_t* at, bool is_bigendian) {
 
 }  // namespace
 
+bool is_same_lens(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b) {
+  return a.k == b.k && a.d == b.d && a.width == b.width && a.height == b.height &&
+         a.distortion_model == b.distortion_model;
+}
+
 Result<vision::LensParams> lens_of(const sensor_msgs::CameraInfo& info) {
   if (auto whole = check_whole(info); !whole) return tl::unexpected<Error>(whole.error());
   vision::LensParams lens;

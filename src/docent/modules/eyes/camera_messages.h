@@ -10,6 +10,9 @@
 
 namespace docent::modules {
 
+/// Whether two messages tell of the same lens.
+[[nodiscard]] bool is_same_lens(const sensor_msgs::CameraInfo& a, const sensor_msgs::CameraInfo& b);
+
 /// How a lens bends light, as its driver says. Error: a model that is not read, a lens that nobody has calibrated, a
 /// part of the sensor's picture, numbers of another count than the model has.
 [[nodiscard]] Result<vision::LensParams> lens_of(const sensor_msgs::CameraInfo& info);

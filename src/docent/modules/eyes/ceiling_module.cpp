@@ -49,9 +49,7 @@ class CeilingModule final : public Module {
   static constexpr int kUnlike = 10;  // pictures in a row that look like no place
 
   void know(const sensor_msgs::CameraInfo& info) {
-    if (known_ && known_->k == info.k && known_->d == info.d && known_->width == info.width &&
-        known_->height == info.height && known_->distortion_model == info.distortion_model)
-      return;
+    if (known_ && is_same_lens(*known_, info)) return;
     known_ = info;
     localizer_.reset();
     auto lens = lens_of(info).and_then([](const vision::LensParams& read) { return vision::Lens::make(read); });

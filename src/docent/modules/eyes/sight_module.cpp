@@ -52,9 +52,7 @@ class SightModule final : public Module {
   static constexpr int kUnseenFloor = 5;  // pictures in a row
 
   void know(const sensor_msgs::CameraInfo& info) {
-    if (known_ && known_->k == info.k && known_->d == info.d && known_->width == info.width &&
-        known_->height == info.height && known_->distortion_model == info.distortion_model)
-      return;
+    if (known_ && is_same_lens(*known_, info)) return;
     known_ = info;
     const auto camera = depth_camera_of(info, params_.place.depth_mount());
     fault_ = camera ? "" : camera.error().message;

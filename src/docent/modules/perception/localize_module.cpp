@@ -166,6 +166,9 @@ class LocalizeModule final : public Module {
                                               heard = state.carried_off;
                                             });
     bus_.subscribe<docent_msgs::PoseFix>(topics::kPoseFix, [this](const auto& fix) {
+      const bool is_whole = fix.header.frame_id == "map" && fix.p_wrong >= 0.0 && fix.p_wrong <= 1.0 &&
+                            fix.covariance[0] > 0.0 && fix.covariance[4] > 0.0 && fix.covariance[8] > 0.0;
+      if (!is_whole) return;  // of another program, and no fix
       watch_.take_fix(
           {{fix.x, fix.y, Angle::radians(fix.theta)}, fix.covariance, {}, from_message(fix.header.stamp), fix.p_wrong});
     });
