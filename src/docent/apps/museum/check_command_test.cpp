@@ -104,7 +104,8 @@ TEST_F(CheckCommand, SaysInWhichLanguageTheRobotHasNoPhrases) {
   };
   EXPECT_EQ(said().find("note:"), std::string::npos);
   std::string text = read_file(folder_ / "museum.yaml").value();
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"[en, de, fr]", "[en, tr, fr]"}, {", de: ", ", tr: "}}) {
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"[en, de, fr]", "[en, tr, fr]"}, {", de: ", ", tr: "}}) {
     for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
   }
