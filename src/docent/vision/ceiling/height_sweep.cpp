@@ -13,10 +13,10 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kLeastPictures = 4.0F;  // that see a cell
 constexpr int kRounds = 8;              // in which cells listen to their neighbours
-constexpr double kLeastGain = 0.25;     // by which the best height must lie below the middle one, to be believed
-constexpr float kFarBetter = 0.65F;  // share of another's disagreement from which a height explains a cell far better
+constexpr float kBelieved = -0.3F;      // [nat] by which the best height must lie below the middle one
+constexpr float kFarBetter = -0.45F;    // [nat] from which a height explains a cell far better than another
 constexpr std::size_t kMostParts = 16;
-constexpr double kNeighbour = 0.12;  // cost of a neighbour of another part, as a share of the variances' middle
+constexpr float kNeighbour = 0.12F;  // [nat] that a neighbour of another part costs
 
 /// A picture without what is slow in it: less what it shows round each block on the average. So neither the light of a
 /// picture nor that which a lens loses towards the rim makes heights differ.
@@ -63,11 +63,15 @@ class SharpPicture {
   std::vector<float> values_;
 };
 
-/// What the pictures show at the cells at one height: mean square of the differences from what they show together.
-std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& camera,
-                                std::span<const SharpPicture> pictures, std::span<const PictureUnknowns> unknowns,
-                                double height, const HeightSweepParams& params, std::size_t stride, double farthest) {
-  std::vector<float> sums(cells.size()), squares(cells.size()), counts(cells.size());
+/// What the pictures show at the cells at one height.
+struct Shown {
+  std::vector<float> sums, squares, counts;
+};
+
+Shown shown_at(const GridFrame& cells, const CeilingCamera& camera, std::span<const SharpPicture> pictures,
+               std::span<const PictureUnknowns> unknowns, double height, const HeightSweepParams& params,
+               std::size_t stride, double farthest) {
+  Shown shown{std::vector<float>(cells.size()), std::vector<float>(cells.size()), std::vector<float>(cells.size())};
   const double above = height - camera.mount.position.z();
   const double reach = std::min(farthest, params.steepest * above);
   for (std::size_t n = 0; n < pictures.size(); n += stride) {
@@ -84,73 +88,101 @@ std::vector<float> disagreement(const GridFrame& cells, const CeilingCamera& cam
         const auto pixel = camera.pixel_of(robot_from_map * centre, height);
         float value = 0.0F;
         if (!pixel || !pictures[n].look(pixel->x(), pixel->y(), value)) continue;
-        const float shown = value * darker;
         const std::size_t cell = cells.index({column, row});
-        sums[cell] += shown, squares[cell] += shown * shown, counts[cell] += 1.0F;
+        const float as_bright = value * darker;
+        shown.sums[cell] += as_bright, shown.squares[cell] += as_bright * as_bright, shown.counts[cell] += 1.0F;
       }
     }
   }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    const float mean = sums[i] / std::max(1.0F, counts[i]);
-    // Unbiased: heights that fewer pictures see would look better.
-    squares[i] = counts[i] >= kLeastPictures
-                     ? std::max(0.0F, (squares[i] - counts[i] * mean * mean) / (counts[i] - 1.0F))
-                     : kNone;
+  return shown;
+}
+
+/// Sums over squares of cells, each in constant time.
+class SummedArea {
+ public:
+  /// @param value_of  of a cell's index
+  template <typename ValueOf>
+  SummedArea(const GridFrame& cells, const ValueOf& value_of)
+      : columns_{static_cast<std::size_t>(cells.columns)},
+        rows_{static_cast<std::size_t>(cells.rows)},
+        sums_((columns_ + 1) * (rows_ + 1)) {
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t column = 0; column < columns_; ++column)
+        at(column + 1, row + 1) =
+            at(column, row + 1) + at(column + 1, row) - at(column, row) + value_of(row * columns_ + column);
   }
-  return squares;
-}
+  [[nodiscard]] double round(std::size_t column, std::size_t row, std::size_t reach) const {
+    const std::size_t left = column > reach ? column - reach : 0, right = std::min(columns_, column + reach + 1);
+    const std::size_t low = row > reach ? row - reach : 0, high = std::min(rows_, row + reach + 1);
+    return at(right, high) - at(left, high) - at(right, low) + at(left, low);
+  }
 
-/// Mean over a square window of what is known.
-std::vector<float> smoothed(const GridFrame& cells, const std::vector<float>& values, int reach) {
-  const auto columns = static_cast<std::size_t>(cells.columns), rows = static_cast<std::size_t>(cells.rows);
-  // Summed areas, of values and of how many are known.
-  std::vector<double> sums((columns + 1) * (rows + 1)), counts((columns + 1) * (rows + 1));
-  const auto at = [&](std::size_t column, std::size_t row) { return row * (columns + 1) + column; };
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
-      const float value = values[row * columns + column];
-      const bool known = value != kNone;
-      sums[at(column + 1, row + 1)] = sums[at(column, row + 1)] + sums[at(column + 1, row)] - sums[at(column, row)] +
-                                      (known ? static_cast<double>(value) : 0.0);
-      counts[at(column + 1, row + 1)] =
-          counts[at(column, row + 1)] + counts[at(column + 1, row)] - counts[at(column, row)] + (known ? 1.0 : 0.0);
-    }
-  std::vector<float> means(values.size(), kNone);
-  const auto far = static_cast<std::size_t>(reach);
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
-      const std::size_t left = column > far ? column - far : 0, right = std::min(columns, column + far + 1);
-      const std::size_t low = row > far ? row - far : 0, high = std::min(rows, row + far + 1);
-      const auto area = [&](const std::vector<double>& of) {
-        return of[at(right, high)] - of[at(left, high)] - of[at(right, low)] + of[at(left, low)];
+ private:
+  [[nodiscard]] double at(std::size_t column, std::size_t row) const { return sums_[row * (columns_ + 1) + column]; }
+  double& at(std::size_t column, std::size_t row) { return sums_[row * (columns_ + 1) + column]; }
+  std::size_t columns_, rows_;
+  std::vector<double> sums_;
+};
+
+/// How well one height explains each cell.
+struct HeightCost {
+  std::vector<float> nats;      ///< <= 0 about; 0 tells nothing, kNone where too few pictures see it
+  std::vector<float> variance;  ///< of what the pictures show at one place, round the cell
+};
+
+/// Round each cell: ln of the variance of what pictures show of one place, over that of all that they show there. What
+/// is flat has neither, and tells nothing, whatever the height: heights at which the pictures look at one place from
+/// hardly different sides are no better for it.
+HeightCost cost_of(const GridFrame& cells, const Shown& shown, int reach, double texture) {
+  const auto is_known = [&](std::size_t i) { return shown.counts[i] >= kLeastPictures; };
+  const SummedArea counts{cells,
+                          [&](std::size_t i) { return is_known(i) ? static_cast<double>(shown.counts[i]) : 0.0; }};
+  const SummedArea places{cells, [&](std::size_t i) { return is_known(i) ? 1.0 : 0.0; }};
+  const SummedArea sums{cells, [&](std::size_t i) { return is_known(i) ? static_cast<double>(shown.sums[i]) : 0.0; }};
+  const SummedArea squares{cells,
+                           [&](std::size_t i) { return is_known(i) ? static_cast<double>(shown.squares[i]) : 0.0; }};
+  const SummedArea of_means{cells, [&](std::size_t i) {
+                              const auto sum = static_cast<double>(shown.sums[i]);
+                              return is_known(i) ? sum * sum / static_cast<double>(shown.counts[i]) : 0.0;
+                            }};
+  HeightCost cost{std::vector<float>(cells.size(), kNone), std::vector<float>(cells.size(), kNone)};
+  for (int row = 0; row < cells.rows; ++row)
+    for (int column = 0; column < cells.columns; ++column) {
+      const std::size_t cell = cells.index({column, row});
+      if (!is_known(cell)) continue;
+      const auto round = [&](const SummedArea& of) {
+        return of.round(static_cast<std::size_t>(column), static_cast<std::size_t>(row),
+                        static_cast<std::size_t>(reach));
       };
-      const double count = area(counts);
-      if (count > 0.5 && values[row * columns + column] != kNone)
-        means[row * columns + column] = static_cast<float>(area(sums) / count);
+      const double n = round(counts), sum = round(sums), square = round(squares);
+      const double of_place = std::max(0.0, square - round(of_means)) / (n - round(places));
+      const double of_all = std::max(0.0, square - sum * sum / n) / (n - 1.0);
+      const double noise = texture * texture;
+      cost.nats[cell] = static_cast<float>(std::log((of_place + noise) / (of_all + noise)));
+      cost.variance[cell] = static_cast<float>(of_place);
     }
-  return means;
+  return cost;
 }
 
-/// The height that most cells choose that have texture; nothing where none has.
-std::optional<std::size_t> main_height(const std::vector<std::vector<float>>& costs, const std::vector<double>& heights,
+using HeightCosts = std::vector<HeightCost>;
+
+/// The height that most cells choose; nothing where none has texture.
+std::optional<std::size_t> main_height(const HeightCosts& costs, const std::vector<double>& heights,
                                        const HeightSweepParams& params) {
   std::vector<double> support(heights.size());
-  for (std::size_t cell = 0; cell < costs.front().size(); ++cell) {
+  for (std::size_t cell = 0; cell < costs.front().nats.size(); ++cell) {
     std::vector<float> known;
     std::size_t best = 0;
     float least = kNone;
     for (std::size_t h = 0; h < heights.size(); ++h) {
-      const float cost = costs[h][cell];
+      const float cost = costs[h].nats[cell];
       if (cost == kNone) continue;
       known.push_back(cost);
       if (cost < least) least = cost, best = h;
     }
     if (known.size() < 3) continue;
     std::nth_element(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2), known.end());
-    const auto middle = static_cast<double>(known[known.size() / 2]);
-    if (static_cast<double>(least) < (1.0 - kLeastGain) * middle &&
-        middle - static_cast<double>(least) > params.texture * params.texture)
-      support[best] += params.cell * params.cell;
+    if (least < kBelieved + known[known.size() / 2]) support[best] += params.cell * params.cell;
   }
   std::optional<std::size_t> found;
   double most = params.smallest;
@@ -196,13 +228,12 @@ std::pair<std::size_t, double> largest_patch(const GridFrame& cells, const std::
 
 /// Heights of parts in ascending order: the main one, then each that explains a patch of cells far better than those
 /// before.
-std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<std::vector<float>>& costs,
+std::vector<double> heights_of_parts(const GridFrame& cells, const HeightCosts& costs,
                                      const std::vector<double>& heights, const HeightSweepParams& params) {
   const auto main = main_height(costs, heights, params);
   if (!main) return {};
   std::vector<double> found{heights[*main]};
-  std::vector<float> best = costs[*main], gains(best.size());
-  const auto texture = static_cast<float>(params.texture * params.texture);
+  std::vector<float> best = costs[*main].nats, gains(best.size());
   while (found.size() < kMostParts) {
     std::size_t next = 0;
     double most = 0.0;
@@ -210,8 +241,9 @@ std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<s
       const auto same = [&](double other) { return std::abs(std::log(heights[h] / other)) < params.same; };
       if (std::any_of(found.begin(), found.end(), same)) continue;
       for (std::size_t i = 0; i < gains.size(); ++i) {
-        const float gain = best[i] == kNone || costs[h][i] == kNone ? 0.0F : best[i] - costs[h][i];
-        gains[i] = gain > texture && costs[h][i] < kFarBetter * best[i] ? gain : 0.0F;
+        const float cost = costs[h].nats[i];
+        const float gain = best[i] == kNone || cost == kNone ? 0.0F : best[i] - cost;
+        gains[i] = gain > -kFarBetter && cost < kFarBetter ? gain : 0.0F;
       }
       const auto [count, gain] = largest_patch(cells, gains);
       if (static_cast<double>(count) * params.cell * params.cell >= params.smallest && gain > most)
@@ -220,7 +252,7 @@ std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<s
     if (most == 0.0) break;
     found.push_back(heights[next]);
     for (std::size_t i = 0; i < best.size(); ++i)
-      if (best[i] != kNone) best[i] = std::min(best[i], costs[next][i]);
+      if (best[i] != kNone) best[i] = std::min(best[i], costs[next].nats[i]);
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -228,48 +260,35 @@ std::vector<double> heights_of_parts(const GridFrame& cells, const std::vector<s
 
 /// Each cell's part: what its own cost and its neighbours say (iterated conditional modes). The part that is best for
 /// most cells is that of all that tells nothing; where no height makes the pictures agree, there is no ceiling.
-std::vector<std::uint8_t> parts_of(const GridFrame& cells, std::vector<std::vector<float>> costs,
-                                   const HeightSweepParams& params) {
+std::vector<std::uint8_t> parts_of(const GridFrame& cells, const HeightCosts& costs, const HeightSweepParams& params) {
   std::vector<std::uint8_t> part(cells.size(), CeilingMosaic::kUnknown);
-  std::vector<float> all;
-  for (const auto& of_part : costs)
-    for (const float cost : of_part)
-      if (cost != kNone) all.push_back(cost);
-  if (all.empty()) return part;
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-  const double neighbour = kNeighbour * static_cast<double>(all[all.size() / 2]);
   std::vector<std::size_t> best(costs.size());
+  std::vector<bool> is_ceiling(cells.size());
   const auto unlike = static_cast<float>(params.unlike * params.unlike);
   for (std::size_t cell = 0; cell < part.size(); ++cell) {
     std::size_t least = 0;
     for (std::size_t p = 1; p < costs.size(); ++p)
-      if (costs[p][cell] < costs[least][cell]) least = p;
-    if (costs[least][cell] < unlike) {
-      ++best[least];
-    } else {
-      for (auto& of_part : costs) of_part[cell] = kNone;
-    }
+      if (costs[p].nats[cell] < costs[least].nats[cell]) least = p;
+    is_ceiling[cell] = costs[least].variance[cell] < unlike;
+    if (is_ceiling[cell] && costs[least].nats[cell] < kBelieved) ++best[least];
   }
   const auto main = static_cast<std::size_t>(std::max_element(best.begin(), best.end()) - best.begin());
-  const auto texture = static_cast<float>(params.texture * params.texture);
-  for (std::size_t p = 0; p < costs.size(); ++p)
-    if (p != main)
-      for (float& cost : costs[p]) cost += texture;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<std::uint8_t> last = part;
     for (int row = 0; row < cells.rows; ++row)
       for (int column = 0; column < cells.columns; ++column) {
-        double least = std::numeric_limits<double>::infinity();
+        float least = kNone;
         const std::size_t cell = cells.index({column, row});
+        if (!is_ceiling[cell]) continue;
         for (std::size_t p = 0; p < costs.size(); ++p) {
-          if (costs[p][cell] == kNone) continue;
-          double cost = static_cast<double>(costs[p][cell]);
+          if (costs[p].nats[cell] == kNone) continue;
+          float cost = costs[p].nats[cell] + (p == main ? 0.0F : kNeighbour);
           for (int v = -1; v <= 1; ++v)
             for (int u = -1; u <= 1; ++u) {
               const CellIndex beside{column + u, row + v};
               if (!cells.holds(beside)) continue;
               const std::uint8_t other = last[cells.index(beside)];
-              if (other != CeilingMosaic::kUnknown && other != p) cost += neighbour;
+              if (other != CeilingMosaic::kUnknown && other != p) cost += kNeighbour;
             }
           if (cost < least) least = cost, part[cell] = static_cast<std::uint8_t>(p);
         }
@@ -320,20 +339,20 @@ CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
   for (double height = std::max(params.least, camera.mount.position.z() + 0.3); height <= params.most;
        height *= 1.0 + params.step)
     heights.push_back(height);
-  std::vector<std::vector<float>> costs;
   const std::vector<SharpPicture> sharp(pictures.begin(), pictures.end());
+  const auto costs_at = [&](const std::vector<double>& tried, int reach) {
+    HeightCosts costs;
+    for (const double height : tried)
+      costs.push_back(cost_of(cells, shown_at(cells, camera, sharp, unknowns, height, params, stride, farthest), reach,
+                              params.texture));
+    return costs;
+  };
   const int reach = std::max(1, static_cast<int>(std::lround(0.5 * params.window / params.cell)));
-  for (const double height : heights)
-    costs.push_back(
-        smoothed(cells, disagreement(cells, camera, sharp, unknowns, height, params, stride, farthest), reach));
-  CeilingMosaic mosaic{frame, heights_of_parts(cells, costs, heights, params), {}, {}};
+  CeilingMosaic mosaic{frame, heights_of_parts(cells, costs_at(heights, reach), heights, params), {}, {}};
   mosaic.part.assign(frame.size(), CeilingMosaic::kUnknown);
   mosaic.brightness.assign(frame.size(), 0.0F);
-  costs.clear();
-  for (const double height : mosaic.heights)
-    costs.push_back(smoothed(cells, disagreement(cells, camera, sharp, unknowns, height, params, stride, farthest), 1));
-  if (costs.empty()) return mosaic;
-  const std::vector<std::uint8_t> part = parts_of(cells, std::move(costs), params);
+  if (mosaic.heights.empty()) return mosaic;
+  const std::vector<std::uint8_t> part = parts_of(cells, costs_at(mosaic.heights, 1), params);
   for (int row = 0; row < frame.rows; ++row)
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex coarse = cells.cell_at(frame.centre({column, row}));

@@ -52,8 +52,7 @@ Result<void> CeilingLocalizerParams::validate() const {
   if (!(independent > 0.0 && most_nats > 0.0)) return fail("ceiling.independent and most_nats must be > 0");
   if (!(good > 0.0 && good < 1.0 && good_width > 0.0)) return fail("ceiling.good must be 0..1, good_width > 0");
   if (!(sure > 0.0 && sure < 1.0)) return fail("ceiling.sure must be 0..1");
-  if (!(search_every > 0 && search_rarely > 0 && give_up > 0))
-    return fail("ceiling.search_every, search_rarely and give_up must be > 0");
+  if (!(search_rarely > 0 && give_up > 0)) return fail("ceiling.search_rarely and give_up must be > 0");
   if (!(least_contrast > 0.0)) return fail("ceiling.least_contrast must be > 0");
   return {};
 }
@@ -118,13 +117,14 @@ std::optional<CeilingLocalizer::Fix> CeilingLocalizer::look(const GrayPicture& p
   }
   const bool is_view = is_new_view(odom_from_robot);
   if (is_view) {
-    views_.push_back({{samples.begin(), samples.end()}, odom_from_robot});
+    views_.push_back({{samples.begin(), samples.end()}, odom_from_robot, {}});
+    is_searched_ = false;
     if (static_cast<int>(views_.size()) > params_.views) views_.pop_front();
   }
   follow(samples, moved, is_view);
   ++since_search_;
-  const int every = p_wrong() < params_.sure ? params_.search_rarely : params_.search_every;
-  if (ways_.empty() || since_search_ >= every) search(samples, odom_from_robot);
+  const bool is_due = p_wrong() >= params_.sure || since_search_ >= params_.search_rarely;
+  if (is_due && !is_searched_) search(samples, odom_from_robot);
   if (is_view) {
     const bool explains = !ways_.empty() && ways_.front().correlations.back() > 0.5 * params_.good;
     unexplained_ = explains ? 0 : unexplained_ + 1;
@@ -163,21 +163,23 @@ void CeilingLocalizer::follow(std::span<const CeilingSample> samples, const Pose
   prune();
 }
 
+/// The places and headings at which the pictures of the last views are likeliest together.
+std::vector<Pose2> CeilingLocalizer::searched(const Pose2& odom_from_robot) {
+  std::vector<CeilingSearch::View> seen;
+  for (View& view : views_) {
+    if (view.likelihoods.empty()) view.likelihoods = search_.likelihoods(few_of(view.samples, params_.few));
+    seen.push_back({&view.likelihoods, inverse(odom_from_robot) * view.odom_from_robot});
+  }
+  return search_.best(seen, static_cast<std::size_t>(params_.most_found));
+}
+
 void CeilingLocalizer::search(std::span<const CeilingSample> samples, const Pose2& odom_from_robot) {
   since_search_ = 0;
+  is_searched_ = true;
   const std::vector<CeilingSample> few = few_of(samples, params_.few);
-  std::vector<Pose2> starts;
-  for (const auto& [correlation, place] : search_.best(few, static_cast<std::size_t>(20 * params_.most_found))) {
-    if (static_cast<int>(starts.size()) >= params_.most_found) break;
-    const bool is_known = std::any_of(starts.begin(), starts.end(), [&, &at = place](const Pose2& start) {
-      return distance(start.position(), at.position()) < 2.0 * kSamePlace &&
-             std::abs((start.theta - at.theta).degrees()) < 2.0 * kSameTurn;
-    });
-    if (!is_known) starts.push_back(place);
-  }
   // The places that a few samples fit best, then those that all fit.
   std::vector<PoseFit> fits;
-  for (const Pose2& start : starts)
+  for (const Pose2& start : searched(odom_from_robot))
     if (const auto fit = fit_pose(start, levels_, sampler_.camera().mount, few, fit_params_)) fits.push_back(*fit);
   std::stable_sort(fits.begin(), fits.end(),
                    [](const PoseFit& a, const PoseFit& b) { return a.correlation > b.correlation; });

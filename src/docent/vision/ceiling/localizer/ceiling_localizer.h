@@ -16,27 +16,26 @@
 namespace docent::vision {
 
 struct CeilingLocalizerParams {
-  int samples = 240;         ///< of a picture that a pose is fitted by, > 1
-  int few = 80;              ///< of these that the whole ceiling is searched by, > 1
-  double steepest = 1.2;     ///< slope of the farthest looks, > 0
-  double search_step = 0.3;  ///< [m] > 0: from place to place of a search; the coarsest blur is as wide
-  double search_turn = 8.0;  ///< [deg] > 0: from heading to heading
-  int most_found = 160;      ///< places of a search that are fitted by the few, > 0, and
-  int most_fitted = 32;      ///< of these by all, > 0
-  int most_ways = 24;        ///< ways that are followed, > 1
-  int views = 8;             ///< pictures that ways are compared by, > 0
-  double spacing = 0.35;     ///< [m] from one view to the next, > 0, or
-  double turned = 20.0;      ///< [deg] likewise
-  double independent = 6.0;  ///< samples of a view that count, > 0: neighbours, and errors of mosaic and mount, err
-                             ///< together
-  double most_nats = 6.0;    ///< [nat] that a view counts at most, > 0
-  double good = 0.65;        ///< mean correlation over the views at which a place is as likely right as none is; and
-  double good_width = 0.04;  ///< what its odds grow e-fold by
-  int fewest = 3;            ///< views before it may be sure
-  double sure = 0.01;        ///< P(wrong) below which it searches rarely, 0 .. 1
-  int search_every = 4;      ///< pictures from search to search while it is not sure, and
-  int search_rarely = 60;    ///< while it is
-  int give_up = 4;           ///< views in a row that no way explains: it begins anew
+  int samples = 240;          ///< of a picture that a pose is fitted by, > 1
+  int few = 80;               ///< of these that the whole ceiling is searched by, > 1
+  double steepest = 1.2;      ///< slope of the farthest looks, > 0
+  double search_step = 0.25;  ///< [m] > 0: from place to place of a search; the coarsest blur is as wide
+  double search_turn = 6.0;   ///< [deg] > 0: from heading to heading
+  int most_found = 400;       ///< places of a search that are fitted by the few, > 0, and
+  int most_fitted = 40;       ///< of these by all, > 0
+  int most_ways = 24;         ///< ways that are followed, > 1
+  int views = 8;              ///< pictures that ways are compared by, > 0
+  double spacing = 0.35;      ///< [m] from one view to the next, > 0, or
+  double turned = 20.0;       ///< [deg] likewise
+  double independent = 6.0;   ///< samples of a view that count, > 0: neighbours, and errors of mosaic and mount, err
+                              ///< together
+  double most_nats = 6.0;     ///< [nat] that a view counts at most, > 0
+  double good = 0.65;         ///< mean correlation over the views at which a place is as likely right as none is; and
+  double good_width = 0.04;   ///< what its odds grow e-fold by
+  int fewest = 3;             ///< views before it may be sure
+  double sure = 0.01;         ///< P(wrong) below which it searches rarely, 0 .. 1
+  int search_rarely = 60;     ///< pictures from search to search while it is sure; else each view is searched
+  int give_up = 4;            ///< views in a row that no way explains: it begins anew
   double least_contrast = 0.015;  ///< of a picture, from which it says anything
   [[nodiscard]] Result<void> validate() const;
 };
@@ -69,6 +68,7 @@ class CeilingLocalizer {
   struct View {
     std::vector<CeilingSample> samples;
     Pose2 odom_from_robot;
+    CeilingSearch::Likelihoods likelihoods;  ///< empty until they are asked for
   };
   struct Way {
     Pose2 pose;                ///< at the last picture
@@ -90,6 +90,7 @@ class CeilingLocalizer {
   [[nodiscard]] bool is_new_view(const Pose2& odom_from_robot) const;
   void follow(std::span<const CeilingSample> samples, const Pose2& moved, bool is_view);
   void search(std::span<const CeilingSample> samples, const Pose2& odom_from_robot);
+  [[nodiscard]] std::vector<Pose2> searched(const Pose2& odom_from_robot);
   void take_in(const PoseFit& found, const Pose2& odom_from_robot);
   void prune();
   [[nodiscard]] double p_wrong() const;
@@ -103,9 +104,10 @@ class CeilingLocalizer {
   std::vector<Way> ways_;  ///< by rising cost
   std::optional<Pose2> odom_;
   std::optional<Fix> last_;
-  int same_ = 0;          ///< pictures of one place that were not looked at
-  int since_search_ = 0;  ///< pictures
-  int unexplained_ = 0;   ///< views in a row
+  int same_ = 0;              ///< pictures of one place that were not looked at
+  int since_search_ = 0;      ///< pictures
+  bool is_searched_ = false;  ///< the last view
+  int unexplained_ = 0;       ///< views in a row
 };
 
 }  // namespace docent::vision
