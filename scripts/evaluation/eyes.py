@@ -5,10 +5,10 @@ import re
 import subprocess
 from pathlib import Path
 
-from evaluation import ceilings, eyes_ceiling, eyes_sight
+from evaluation import ceilings, eyes_ceiling, eyes_packed, eyes_sight
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "things", "stairs", "ceiling"]
+PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "things", "stairs", "ceiling", "packed"]
 BESIDE_OPENCV = "tests/objects_beside_opencv/docent_objects_test"
 BESIDE_DEPTH = "tests/floor_beside_depth/docent_floor_test"
 BY_TAG = "tests/docking_by_tag/docent_docking_test"
@@ -115,5 +115,7 @@ def protocol(build, root, options, simulations):
         eyes_sight.part_stairs(simulations, options, verdict, simulations.cache)
     if options.part in (None, "ceiling"):
         eyes_ceiling.part(simulations.docent, root, simulations.cache, options, verdict)
+    if options.part == "packed" or options.part is None and not options.slice:
+        eyes_packed.part(eyes_ceiling.Bench(simulations.docent, simulations.cache, root / "museums"), simulations, options, verdict)
     verdict.print()
     return verdict

@@ -13,10 +13,12 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::infinity();
 constexpr float kLeastPictures = 4.0F;  // that see a cell
 constexpr int kRounds = 8;              // in which cells listen to their neighbours
+constexpr double kFewLooks = 30.0;      // degrees of freedom of a variance that is half believed
 constexpr float kBelieved = -0.3F;      // [nat] by which the best height must lie below the middle one
 constexpr float kFarBetter = -0.45F;    // [nat] from which a height explains a cell far better than another
 constexpr std::size_t kMostParts = 16;
-constexpr float kNeighbour = 0.12F;  // [nat] that a neighbour of another part costs
+constexpr float kNeighbour = 0.25F;  // [nat] that a neighbour of another part costs, and
+constexpr float kOther = 0.15F;      // that not being of the main part costs
 
 /// A picture without what is slow in it: less what it shows round each block on the average. So neither the light of a
 /// picture nor that which a lens loses towards the rim makes heights differ.
@@ -133,7 +135,7 @@ struct HeightCost {
 /// Round each cell: ln of the variance of what pictures show of one place, over that of all that they show there. What
 /// is flat has neither, and tells nothing, whatever the height: heights at which the pictures look at one place from
 /// hardly different sides are no better for it.
-HeightCost cost_of(const GridFrame& cells, const Shown& shown, int reach, double texture) {
+HeightCost cost_of(const GridFrame& cells, const Shown& shown, int reach, double texture, double few_looks) {
   const auto is_known = [&](std::size_t i) { return shown.counts[i] >= kLeastPictures; };
   const SummedArea counts{cells,
                           [&](std::size_t i) { return is_known(i) ? static_cast<double>(shown.counts[i]) : 0.0; }};
@@ -158,7 +160,8 @@ HeightCost cost_of(const GridFrame& cells, const Shown& shown, int reach, double
       const double of_place = std::max(0.0, square - round(of_means)) / (n - round(places));
       const double of_all = std::max(0.0, square - sum * sum / n) / (n - 1.0);
       const double noise = texture * texture;
-      cost.nats[cell] = static_cast<float>(std::log((of_place + noise) / (of_all + noise)));
+      const double free = n - round(places);  // degrees of freedom
+      cost.nats[cell] = static_cast<float>(free / (free + few_looks) * std::log((of_place + noise) / (of_all + noise)));
       cost.variance[cell] = static_cast<float>(of_place);
     }
   return cost;
@@ -282,7 +285,7 @@ std::vector<std::uint8_t> parts_of(const GridFrame& cells, const HeightCosts& co
         if (!is_ceiling[cell]) continue;
         for (std::size_t p = 0; p < costs.size(); ++p) {
           if (costs[p].nats[cell] == kNone) continue;
-          float cost = costs[p].nats[cell] + (p == main ? 0.0F : kNeighbour);
+          float cost = costs[p].nats[cell] + (p == main ? 0.0F : kOther);
           for (int v = -1; v <= 1; ++v)
             for (int u = -1; u <= 1; ++u) {
               const CellIndex beside{column + u, row + v};
@@ -340,19 +343,19 @@ CeilingMosaic sweep_heights(const GridFrame& frame, const CeilingCamera& camera,
        height *= 1.0 + params.step)
     heights.push_back(height);
   const std::vector<SharpPicture> sharp(pictures.begin(), pictures.end());
-  const auto costs_at = [&](const std::vector<double>& tried, int reach) {
+  const auto costs_at = [&](const std::vector<double>& tried, int reach, double few_looks) {
     HeightCosts costs;
     for (const double height : tried)
       costs.push_back(cost_of(cells, shown_at(cells, camera, sharp, unknowns, height, params, stride, farthest), reach,
-                              params.texture));
+                              params.texture, few_looks));
     return costs;
   };
   const int reach = std::max(1, static_cast<int>(std::lround(0.5 * params.window / params.cell)));
-  CeilingMosaic mosaic{frame, heights_of_parts(cells, costs_at(heights, reach), heights, params), {}, {}};
+  CeilingMosaic mosaic{frame, heights_of_parts(cells, costs_at(heights, reach, 0.0), heights, params), {}, {}};
   mosaic.part.assign(frame.size(), CeilingMosaic::kUnknown);
   mosaic.brightness.assign(frame.size(), 0.0F);
   if (mosaic.heights.empty()) return mosaic;
-  const std::vector<std::uint8_t> part = parts_of(cells, costs_at(mosaic.heights, 1), params);
+  const std::vector<std::uint8_t> part = parts_of(cells, costs_at(mosaic.heights, 1, kFewLooks), params);
   for (int row = 0; row < frame.rows; ++row)
     for (int column = 0; column < frame.columns; ++column) {
       const CellIndex coarse = cells.cell_at(frame.centre({column, row}));

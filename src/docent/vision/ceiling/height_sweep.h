@@ -17,7 +17,7 @@ struct HeightSweepParams {
   double cell = 0.15;      ///< [m] side of the cells that choose, > 0
   double window = 0.75;    ///< [m] round a cell that is compared: what is flat there says nothing, > 0
   double smallest = 0.6;   ///< [m^2] of a part of its own height that can be told by its texture, > 0
-  double texture = 0.008;  ///< of 0 .. 1: pictures of a cell that differ by less at wrong heights tell nothing, > 0
+  double texture = 0.008;  ///< of 0 .. 1: pictures of a cell that differ by less tell nothing, > 0
   double unlike = 0.08;    ///< of 0 .. 1: where pictures differ by more at all heights, there is no ceiling, > 0
   double steepest = 1.0;   ///< slope of the farthest looks, > 0
   double same = 0.08;      ///< heights that differ by less, as a share, are one part, > 0

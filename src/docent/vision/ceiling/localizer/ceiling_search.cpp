@@ -11,9 +11,12 @@ namespace {
 constexpr float kPlain = 1e-5F;          // [square of brightness] variance of what is plain
 constexpr float kLeastSeen = 0.5F;       // of the samples, that lie on the ceiling
 constexpr float kLargest = 0.95F;        // correlation that a coarse grid can reach
-constexpr double kLeastPart = 0.01;      // of the ceiling: smaller parts tell too little for what they cost
-constexpr double kApart = 0.7;       // [m]
-constexpr double kTurnedApart = 20.0;       // [deg]
+constexpr float kLeastPart = 0.02F;      // of the ceiling: smaller parts are no part of their own here
+constexpr double kAlike = 0.10;          // heights of which the logarithms differ by less are one part here
+constexpr int kTogether = 8;             // places that are looked at together
+constexpr int kMargin = 100;             // [places] round the ceiling: the farthest look
+constexpr double kApart = 0.7;           // [m]
+constexpr double kTurnedApart = 20.0;    // [deg]
 constexpr std::size_t kNeighbours = 40;  // cells of the grid that one place fills at most
 
 int rounded(double value) { return static_cast<int>(std::lround(value)); }
@@ -21,26 +24,21 @@ float log_of(float correlation) { return -std::log1p(-correlation * correlation)
 
 }  // namespace
 
-/// Of the samples at the places of one row: how many lie on the ceiling, and what makes the correlation.
+/// Of the samples at some places beside one another: how many lie on the ceiling, and what makes the correlation.
 struct CeilingSearch::Sums {
-  Row n, shown, shown2, seen, seen2, both;
-  explicit Sums(int columns)
-      : n(columns), shown(columns), shown2(columns), seen(columns), seen2(columns), both(columns) {}
-  void clear() {
-    for (Row* row : {&n, &shown, &shown2, &seen, &seen2, &both}) row->setZero();
-  }
-  void add(const Part& part, float brightness, int row, int right) {
-    const Eigen::Index columns = n.size();
-    const Eigen::Index first = std::max(0, -right), count = columns - std::abs(right);
-    if (count <= 0) return;
-    const auto there = part.is_there.row(row).segment(first + right, count).transpose();
-    const auto value = part.brightness.row(row).segment(first + right, count).transpose();
-    n.segment(first, count) += there;
-    shown.segment(first, count) += brightness * there;
-    shown2.segment(first, count) += brightness * brightness * there;
-    seen.segment(first, count) += value;
-    seen2.segment(first, count) += part.square.row(row).segment(first + right, count).transpose();
-    both.segment(first, count) += brightness * value;
+  using Places = Eigen::Array<float, kTogether, 1>;
+  Places n = Places::Zero(), shown = Places::Zero(), shown2 = Places::Zero();
+  Places seen = Places::Zero(), seen2 = Places::Zero(), both = Places::Zero();
+  void add(const Part& part, float brightness, std::ptrdiff_t at) {
+    const Eigen::Map<const Places> there{part.is_there.data() + at}, value{part.brightness.data() + at};
+    const Eigen::Map<const Places> square{part.square.data() + at};
+    const Places bright = brightness * there;
+    n += there;
+    shown += bright;
+    shown2 += brightness * bright;
+    seen += value;
+    seen2 += square;
+    both += brightness * value;
   }
   [[nodiscard]] float correlation(Eigen::Index i, float least) const {
     if (n(i) < least) return 0.0F;
@@ -48,8 +46,8 @@ struct CeilingSearch::Sums {
     const float of_shown = shown2(i) * share - shown(i) * share * shown(i) * share;
     const float of_seen = seen2(i) * share - seen(i) * share * seen(i) * share;
     if (of_shown < kPlain || of_seen < kPlain) return 0.0F;
-    return std::clamp((both(i) * share - shown(i) * share * seen(i) * share) / std::sqrt(of_shown * of_seen), 0.0F,
-                      kLargest);
+    const float together = both(i) * share - shown(i) * share * seen(i) * share;
+    return std::clamp(together / std::sqrt(of_shown * of_seen), 0.0F, kLargest);
   }
 };
 
@@ -63,36 +61,63 @@ CeilingSearch::CeilingSearch(const CeilingMosaic& mosaic, const MosaicLevel& lev
       columns_{std::max(1, static_cast<int>(mosaic.frame.columns * mosaic.frame.resolution / step))} {
   const double per_metre = 1.0 / level.frame().resolution;
   for (std::size_t k = 0; k < level.heights().size(); ++k) {
-    Part part{level.heights()[k], Plane::Zero(rows_, columns_), Plane::Zero(rows_, columns_), {}};
+    Part part{level.heights()[k], Plane::Zero(height(), width()), Plane::Zero(height(), width()), {}};
     for (int row = 0; row < rows_; ++row)
       for (int column = 0; column < columns_; ++column) {
         float brightness = 0.0F;
         if (!level.nearest(static_cast<float>((column + 0.5) * step * per_metre),
                            static_cast<float>((row + 0.5) * step * per_metre), k, brightness))
           continue;
-        part.is_there(row, column) = 1.0F;
-        part.brightness(row, column) = brightness;
+        part.is_there(row + kMargin, column + kMargin) = 1.0F;
+        part.brightness(row + kMargin, column + kMargin) = brightness;
       }
-    part.square = part.brightness.square();
     parts_.push_back(std::move(part));
   }
-  const auto area = [](double sum, const Part& part) { return sum + static_cast<double>(part.is_there.sum()); };
-  const double all = std::accumulate(parts_.begin(), parts_.end(), 0.0, area);
-  std::erase_if(parts_, [&](const Part& part) { return area(0.0, part) < kLeastPart * all; });
+  join_parts();
+  for (Part& part : parts_) part.square = part.brightness.square();
+}
+
+/// Small parts count as the one that is nearest in height: a coarse grid tells them hardly apart.
+void CeilingSearch::join_parts() {
+  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.area() > b.area(); });
+  const float all = std::accumulate(parts_.begin(), parts_.end(), 0.0F,
+                                    [](float sum, const Part& part) { return sum + part.area(); });
+  std::vector<Part> large;
+  for (Part& part : parts_) {
+    const auto nearest = std::min_element(large.begin(), large.end(), [&](const Part& a, const Part& b) {
+      return std::abs(std::log(a.height / part.height)) < std::abs(std::log(b.height / part.height));
+    });
+    const bool is_alike = nearest != large.end() && std::abs(std::log(nearest->height / part.height)) < kAlike;
+    if (is_alike || (nearest != large.end() && part.area() < kLeastPart * all)) {
+      nearest->is_there += part.is_there;
+      nearest->brightness += part.brightness;
+    } else {
+      large.push_back(std::move(part));
+    }
+  }
+  parts_ = std::move(large);
+}
+
+int CeilingSearch::width() const { return columns_ + 2 * kMargin; }
+int CeilingSearch::height() const { return rows_ + 2 * kMargin; }
+
+/// Whether there is ceiling above one of the places that are looked at together.
+bool CeilingSearch::is_below(int row, int column) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+    return (part.is_there.row(row + kMargin).segment<kTogether>(column + kMargin) > 0.0F).any();
+  });
 }
 
 CeilingSearch::Likelihoods CeilingSearch::likelihoods(std::span<const CeilingSample> samples) const {
   struct Offset {
     const Part* part;
     float brightness;
-    int right, up;
+    std::ptrdiff_t from_here;
   };
   const float per_log = 255.0F / log_of(kLargest);
   const float least = kLeastSeen * static_cast<float>(samples.size());
   Likelihoods found(size());
-  Sums sums{columns_};
   std::vector<Offset> offsets;
-  std::uint8_t* out = found.data();
   for (int heading = 0; heading < headings_; ++heading) {
     const Point2 along = unit(Angle::degrees(360.0 * heading / headings_));
     offsets.clear();
@@ -101,16 +126,22 @@ CeilingSearch::Likelihoods CeilingSearch::likelihoods(std::span<const CeilingSam
         const double above = part.height - mount_.position.z();
         const double x = mount_.position.x() + above * static_cast<double>(sample.slope_x);
         const double y = mount_.position.y() + above * static_cast<double>(sample.slope_y);
-        offsets.push_back({&part, sample.brightness, rounded((along.x * x - along.y * y) / step_),
-                           rounded((along.y * x + along.x * y) / step_)});
+        const int right = rounded((along.x * x - along.y * y) / step_);
+        const int up = rounded((along.y * x + along.x * y) / step_);
+        if (std::max(std::abs(right), std::abs(up)) <= kMargin)
+          offsets.push_back({&part, sample.brightness, up * static_cast<std::ptrdiff_t>(width()) + right});
       }
     for (int row = 0; row < rows_; ++row) {
-      sums.clear();
-      for (const Offset& offset : offsets)
-        if (row + offset.up >= 0 && row + offset.up < rows_)
-          sums.add(*offset.part, offset.brightness, row + offset.up, offset.right);
-      for (int column = 0; column < columns_; ++column)
-        *out++ = static_cast<std::uint8_t>(per_log * log_of(sums.correlation(column, least)));
+      const std::ptrdiff_t first = (row + kMargin) * static_cast<std::ptrdiff_t>(width()) + kMargin;
+      std::uint8_t* out = found.data() + static_cast<std::ptrdiff_t>(heading * rows_ + row) * columns_;
+      for (int column = 0; column < columns_; column += kTogether) {
+        if (!is_below(row, column)) continue;
+        Sums sums;
+        for (const Offset& offset : offsets)
+          sums.add(*offset.part, offset.brightness, first + column + offset.from_here);
+        for (int i = 0; i < std::min(kTogether, columns_ - column); ++i)
+          out[column + i] = static_cast<std::uint8_t>(per_log * log_of(sums.correlation(i, least)));
+      }
     }
   }
   return found;

@@ -34,14 +34,18 @@ class CeilingSearch {
   [[nodiscard]] std::vector<Pose2> best(std::span<const View> views, std::size_t most) const;
 
  private:
-  using Row = Eigen::ArrayXf;
   using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   /// What one height of the ceiling looks like; 0 where it is none.
   struct Part {
     double height = 0.0;
     Plane is_there, brightness, square;
+    [[nodiscard]] float area() const { return is_there.sum(); }  ///< [cells]
   };
   struct Sums;
+  void join_parts();
+  [[nodiscard]] bool is_below(int row, int column) const;
+  [[nodiscard]] int width() const;  ///< of the planes, with their margins
+  [[nodiscard]] int height() const;
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(headings_) * static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_);
   }
