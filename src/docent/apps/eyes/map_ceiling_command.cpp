@@ -22,6 +22,7 @@
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/log.h"
 #include "docent/base/files.h"
+#include "docent/modules/eyes/eye_places.h"
 #include "docent/vision/ceiling/drive/ceiling_drive.h"
 #include "docent/vision/ceiling/mosaic_file.h"
 
@@ -117,6 +118,12 @@ double turned(const vision::CeilingDrive& drive, const vision::SolvedMosaic& sol
   return Eigen::AngleAxisd{solved.camera.mount.robot_from_camera * told.transpose()}.angle() / kDegree;
 }
 
+nlohmann::json place_in_report(const vision::CameraMount& mount) {
+  const modules::EyePlace place = modules::place_of(mount);
+  return {{"x", place.x},     {"y", place.y},       {"z", place.z},
+          {"pan", place.pan}, {"tilt", place.tilt}, {"roll", place.roll}};
+}
+
 nlohmann::json parts_of(const vision::CeilingMosaic& mosaic) {
   std::vector<std::size_t> cells(mosaic.heights.size());
   for (const std::uint8_t part : mosaic.part)
@@ -167,6 +174,7 @@ void map_ceiling(Options& options) {
                               {"moved_rms_m", moved(drive, *solved)},
                               {"residual_rms", off},
                               {"mount_turned_deg", turned(drive, *solved)},
+                              {"place", place_in_report(solved->camera.mount)},
                               {"parts", parts_of(solved->mosaic)},
                               {"seconds", seconds},
                               {"megabytes", megabytes},
@@ -176,6 +184,10 @@ void map_ceiling(Options& options) {
       "%zu pictures, %zu unknowns: poses moved by %.3f m (RMS), pictures differ by %.3f of 0 to 1 (RMS); the "
       "camera looks %.2f degrees beside what is said\n",
       drive.bytes.size(), solved->unknowns, moved(drive, *solved), off, turned(drive, *solved));
+  const modules::EyePlace place = modules::place_of(solved->camera.mount);
+  std::printf(
+      "robot.yaml should say   ceiling: {place: {x: %.3f, y: %.3f, z: %.3f, pan: %.2f, tilt: %.2f, roll: %.2f}}\n",
+      place.x, place.y, place.z, place.pan, place.tilt, place.roll);
   for (const auto& part : report["parts"])
     std::printf("%8.3f m high: %.1f m2\n", part["height_m"].get<double>(), part["area_m2"].get<double>());
   std::printf("%s: %d x %d cells; %.1f s of one core, %.0f MB%s\n", options.out.c_str(), solved->mosaic.frame.columns,

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "docent/modules/eyes/eye_places.h"
+
 namespace docent::modules::camera_messages_test {
 namespace {
 
@@ -80,6 +82,15 @@ TEST(CameraMessages, ReadsEitherByteOrder) {
   EXPECT_FLOAT_EQ(picture->depth[0], 1.1F);
   image.width = 20;
   EXPECT_FALSE(depth_picture_of(image, *camera)) << "another size";
+}
+
+TEST(EyePlace, IsThatOfItsMount) {
+  for (const EyePlace& place : {EyePlace{0.1, 0.02, 1.25, 0.0, 90.0, 0.0}, EyePlace{0.1, 0.0, 1.2, 140.0, 89.3, -40.0},
+                                EyePlace{0.16, -0.03, 1.05, 3.0, -30.0, 2.0}}) {
+    const vision::CameraMount mount = place.camera_mount(), again = place_of(mount).camera_mount();
+    EXPECT_TRUE(mount.position.isApprox(again.position));
+    EXPECT_TRUE(mount.robot_from_camera.isApprox(again.robot_from_camera, 1e-9)) << place.tilt;
+  }
 }
 
 }  // namespace

@@ -34,6 +34,20 @@ vision::CameraMount EyePlace::camera_mount() const {
   return mount;
 }
 
+EyePlace place_of(const vision::CameraMount& mount) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const Eigen::Vector3d ahead = mount.robot_from_camera.col(2);
+  EyePlace place{mount.position.x(), mount.position.y(), mount.position.z(), 0.0, 0.0, 0.0};
+  const double level = std::hypot(ahead.x(), ahead.y());
+  place.tilt = std::atan2(ahead.z(), level) / kDegree;
+  constexpr double kStraight = 1e-9;
+  place.pan = level > kStraight ? std::atan2(ahead.y(), ahead.x()) / kDegree : 0.0;
+  const Eigen::Matrix3d level_from_camera =
+      place.camera_mount().robot_from_camera.transpose() * mount.robot_from_camera;
+  place.roll = std::atan2(level_from_camera(1, 0), level_from_camera(0, 0)) / kDegree;
+  return place;
+}
+
 Result<void> CeilingParams::validate() const {
   constexpr double kSteepest = 4.0, kLevel = 45.0;  // slope; [deg]
   if (auto valid = place.validate(); !valid) return valid;

@@ -27,6 +27,8 @@ struct EyePlace {
   [[nodiscard]] vision::DepthCameraMount depth_mount() const;
   [[nodiscard]] vision::CameraMount camera_mount() const;
 };
+/// The other way round. Of a camera that looks up all but straight, pan and roll alone mean little, and much together.
+[[nodiscard]] EyePlace place_of(const vision::CameraMount& mount);
 
 /// Section `ceiling`: a camera that looks up.
 struct CeilingParams {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "docent/vision/ceiling/ceiling_camera.h"
@@ -11,8 +12,9 @@ namespace docent::vision {
 struct PlacedPicture {
   GrayPicture picture;
   Pose2 map_from_robot;
-  double gain = 1.0;    ///< > 0
-  double offset = 0.0;  ///< of 0 .. 1
+  double gain = 1.0;                       ///< > 0
+  double offset = 0.0;                     ///< of 0 .. 1
+  std::optional<Pose2> odom_from_robot{};  ///< where odometry had the robot then
 };
 
 /// Puts pictures together to a mosaic: each cell is the mean of what the pictures show of it, those from beneath count

@@ -169,6 +169,38 @@ void hold(ceres::Problem& problem, std::span<const double> errors, std::span<con
   problem.AddResidualBlock(new ceres::NormalPrior(weights, mean), nullptr, block);
 }
 
+/// The way from one picture to the next as odometry has it: parameters are both poses, residuals the differences over
+/// their standard deviations.
+struct OdometryStep {
+  Pose2 told;
+  double error, turn_error;
+  template <class T>
+  bool operator()(const T* from, const T* to, T* residuals) const {
+    using std::cos, std::sin;
+    const T c = cos(from[2]), s = sin(from[2]);
+    const T x = to[0] - from[0], y = to[1] - from[1];
+    residuals[0] = (c * x + s * y - told.x) / error;
+    residuals[1] = (c * y - s * x - told.y) / error;
+    const T turn = to[2] - from[2] - told.theta.radians();
+    residuals[2] = atan2(sin(turn), cos(turn)) / turn_error;
+    return true;
+  }
+};
+
+void lay_steps(std::span<const PlacedPicture> pictures, const MosaicSolverParams& params,
+               std::vector<PictureUnknowns>& unknowns, ceres::Problem& problem) {
+  for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
+    const auto &from = pictures[i].odom_from_robot, &to = pictures[i + 1].odom_from_robot;
+    if (!from || !to) continue;
+    const Pose2 told = inverse(*from) * *to;
+    const double error = params.step_error + params.step_share * norm(told.position());
+    const double turn_error = params.step_error + params.step_share * std::abs(told.theta.radians());
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<OdometryStep, 3, 3, 3>{new OdometryStep{told, error, turn_error}}, nullptr,
+        unknowns[i].pose.data(), unknowns[i + 1].pose.data());
+  }
+}
+
 /// Asks after each step of Levenberg-Marquardt whether it shall go on.
 class AskedStep final : public ceres::IterationCallback {
  public:
@@ -226,6 +258,7 @@ void solve_level(const Level& level, std::span<const PlacedPicture> priors, cons
     hold(problem, light_errors, neutral, unknowns[i].light.data());
     if (!params.solve_light) problem.SetParameterBlockConstant(unknowns[i].light.data());
   }
+  if (params.use_priors) lay_steps(priors, params, unknowns, problem);
   if (problem.HasParameterBlock(turn.data())) {
     const std::array<double, 2> turn_errors{params.mount_error, params.mount_error};
     hold(problem, turn_errors, neutral, turn.data());
@@ -308,6 +341,7 @@ Result<void> MosaicSolverParams::validate() const {
   if (samples < 1 || partners < 1 || most_steps < 1) return fail("mosaic.samples, partners and most_steps must be > 0");
   if (!(position_error > 0.0 && heading_error > 0.0 && mount_error > 0.0 && gain_error > 0.0 && offset_error > 0.0))
     return fail("mosaic.position_error, heading_error, mount_error, gain_error and offset_error must be > 0");
+  if (!(step_error > 0.0 && step_share > 0.0)) return fail("mosaic.step_error and step_share must be > 0");
   return sweep.validate();
 }
 

@@ -22,6 +22,8 @@ struct MosaicSolverParams {
   int most_steps = 10;               ///< of Levenberg-Marquardt on each level, > 0
   double position_error = 0.04;      ///< [m] standard deviation of the poses' priors, in x and y each, > 0
   double heading_error = 0.012;      ///< [rad] likewise, > 0
+  double step_error = 0.003;         ///< [m] standard deviation of odometry from picture to picture, and
+  double step_share = 0.02;          ///< of the way; likewise [rad] and of the turn; both > 0
   double mount_error = 0.02;         ///< [rad] of how the camera is said to look, about each level axis, > 0
   double gain_error = 0.3;           ///< of the logarithm of a picture's gain, > 0
   double offset_error = 0.15;        ///< of a picture's offset, of 0 .. 1, > 0
@@ -30,7 +32,8 @@ struct MosaicSolverParams {
   bool solve_heights = true;         ///< else all of the ceiling has the height of its largest part
   bool solve_mount = true;           ///< else the camera looks as it is said to
   bool solve_light = true;           ///< else all pictures are taken to have the same light
-  bool use_priors = true;  ///< else only the first picture's pose is held, and the others are started from theirs
+  bool use_priors = true;  ///< else only the first picture's pose is held, the others are started from theirs, and
+                           ///< odometry is not heard
   [[nodiscard]] Result<void> validate() const;
 };
 
@@ -60,9 +63,9 @@ using MosaicProgress = std::function<bool(const MosaicStage&)>;
 
 /// The likeliest ceiling, [Minerva2000] 4.3 and Fig. 10: poses of all pictures, heights of the ceiling's parts, gain
 /// and offset of each picture, and how the camera looks up, by Levenberg-Marquardt from coarse pictures to fine ones,
-/// with the given poses as priors. The mosaic itself is no unknown: pictures are laid on one another in pairs, and
-/// drawn in the end. Parts and their first heights are found by sweep_heights. Deterministic. Error: fewer than three
-/// pictures, pictures of another size than the lens, or a ceiling too plain to tell its height.
+/// with the given poses and odometry as priors. The mosaic itself is no unknown: pictures are laid on one another in
+/// pairs, and drawn in the end. Parts and their first heights are found by sweep_heights. Deterministic. Error: fewer
+/// than three pictures, pictures of another size than the lens, or a ceiling too plain to tell its height.
 [[nodiscard]] Result<SolvedMosaic> solve_mosaic(const CeilingCamera& camera, std::span<const PlacedPicture> pictures,
                                                 const MosaicSolverParams& params = {},
                                                 const MosaicProgress& progress = {});

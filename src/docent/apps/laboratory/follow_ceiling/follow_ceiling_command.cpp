@@ -11,6 +11,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
+#include "docent/modules/eyes/eye_places.h"
 #include "docent/vision/ceiling/drive/ceiling_drive.h"
 #include "docent/vision/ceiling/localizer/ceiling_localizer.h"
 #include "docent/vision/ceiling/mosaic_file.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct FollowOptions {
   std::string ceiling, drive, out;
+  std::vector<double> place;
   int restart = 50;
   bool is_mirrored = false;
 };
@@ -56,6 +58,8 @@ void run(const FollowOptions& options) {
   const auto truth = value_or_fail(read_poses(folder / "truth" / "poses.csv", kOdometry));
   if (odometry.size() != drive.bytes.size() || truth.size() != drive.bytes.size())
     value_or_fail(Result<void>{fail(folder.string() + ": not as many poses as pictures")});
+  if (const auto& at = options.place; !at.empty())
+    drive.camera.mount = modules::EyePlace{at[0], at[1], at[2], at[3], at[4], at[5]}.camera_mount();
   const auto& lens = drive.camera.lens.params();
   vision::CeilingLocalizer localizer{mosaic, drive.camera};
   std::string rows = "picture,start,way,said,p_wrong,correlation,error,turn\n";
@@ -94,6 +98,11 @@ void add_follow_ceiling_command(CLI::App& app) {
   command->add_option("--restart", options->restart, "Pictures after which it forgets where it is")
       ->check(CLI::Range(3, 1000000))
       ->capture_default_str();
+  command
+      ->add_option("--place", options->place,
+                   "X,Y,Z,PAN,TILT,ROLL of the camera [m, deg] instead of what the drive says")
+      ->delimiter(',')
+      ->expected(6);
   command->add_flag("--upside-down", options->is_mirrored, "Every picture is turned by half a turn");
   command->footer("Example:\n  docent-lab follow-ceiling museums/bonn/ceiling.yaml build/drive --out ways.csv");
   command->callback([options] { run(*options); });

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -66,13 +67,17 @@ bool read_number(std::string_view text, double& number) {
 struct NumberedPose {
   int picture = 0;
   Pose2 map_from_robot;
+  std::optional<Pose2> odom_from_robot;
 };
 
 Result<std::vector<NumberedPose>> read_poses(const fs::path& path) {
   const auto text = read_file(path);
   if (!text) return tl::unexpected<Error>(text.error());
-  constexpr std::array<std::string_view, 4> kColumns{"picture", "map_x", "map_y", "map_theta"};
-  std::array<std::size_t, 4> at{};
+  constexpr std::array<std::string_view, 7> kColumns{"picture",    "map_x",      "map_y",         "map_theta",
+                                                     "odometry_x", "odometry_y", "odometry_theta"};
+  constexpr std::size_t kRequired = 4;
+  std::array<std::size_t, 7> at{};
+  std::size_t columns = kRequired;
   std::vector<NumberedPose> poses;
   std::size_t number = 0;
   for (std::string_view rest = *text; !rest.empty();) {
@@ -86,20 +91,25 @@ Result<std::vector<NumberedPose>> read_poses(const fs::path& path) {
     ++number;
     const auto fields = fields_of(line);
     if (number == 1) {
+      bool has_odometry = true;
       for (std::size_t i = 0; i < kColumns.size(); ++i) {
         const auto found = std::find(fields.begin(), fields.end(), kColumns[i]);
-        if (found == fields.end()) return fault("has no column '" + std::string{kColumns[i]} + "'");
+        if (found == fields.end() && i < kRequired) return fault("has no column '" + std::string{kColumns[i]} + "'");
+        has_odometry = has_odometry && found != fields.end();
         at[i] = static_cast<std::size_t>(found - fields.begin());
       }
+      if (has_odometry) columns = kColumns.size();
       continue;
     }
     if (line.empty()) continue;
-    std::array<double, 4> values{};
-    for (std::size_t i = 0; i < at.size(); ++i)
+    std::array<double, 7> values{};
+    for (std::size_t i = 0; i < columns; ++i)
       if (at[i] >= fields.size() || !read_number(fields[at[i]], values[i]) || !(std::abs(values[i]) <= kFarthest))
         return fault("expected a number under '" + std::string{kColumns[i]} + "'");
     if (values[0] < 0.0 || values[0] != std::floor(values[0])) return fault("picture must be a whole number");
-    poses.push_back({static_cast<int>(values[0]), {values[1], values[2], Angle::radians(values[3])}});
+    poses.push_back({static_cast<int>(values[0]), {values[1], values[2], Angle::radians(values[3])}, {}});
+    if (columns == kColumns.size())
+      poses.back().odom_from_robot = Pose2{values[4], values[5], Angle::radians(values[6])};
   }
   if (poses.empty()) return fail(path.string() + ":1: has no poses");
   return poses;
@@ -131,7 +141,11 @@ std::vector<vision::PlacedPicture> CeilingDrive::placed() const {
   std::vector<vision::PlacedPicture> placed;
   const vision::LensParams& lens = camera.lens.params();
   for (std::size_t i = 0; i < bytes.size(); ++i)
-    placed.push_back({{lens.columns, lens.rows, bytes[i]}, map_from_robot[i]});
+    placed.push_back({{lens.columns, lens.rows, bytes[i]},
+                      map_from_robot[i],
+                      1.0,
+                      0.0,
+                      odom_from_robot.empty() ? std::nullopt : std::optional{odom_from_robot[i]}});
   return placed;
 }
 
@@ -157,7 +171,7 @@ Result<CeilingDrive> read_ceiling_drive(const fs::path& folder) {
   if (!camera) return tl::unexpected<Error>(camera.error());
   const auto poses = read_poses(folder / "poses.csv");
   if (!poses) return tl::unexpected<Error>(poses.error());
-  CeilingDrive drive{*camera, {}, {}, {}};
+  CeilingDrive drive{*camera, {}, {}, {}, {}};
   for (const NumberedPose& pose : *poses) {
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "%06d.png", pose.picture);
@@ -166,6 +180,7 @@ Result<CeilingDrive> read_ceiling_drive(const fs::path& folder) {
     drive.numbers.push_back(pose.picture);
     drive.bytes.push_back(std::move(*bytes));
     drive.map_from_robot.push_back(pose.map_from_robot);
+    if (pose.odom_from_robot) drive.odom_from_robot.push_back(*pose.odom_from_robot);
   }
   return drive;
 }

@@ -17,6 +17,7 @@ struct CeilingDrive {
   std::vector<int> numbers;                      ///< of the pictures, as the files are named
   std::vector<std::vector<std::uint8_t>> bytes;  ///< of each picture, grey
   std::vector<Pose2> map_from_robot;             ///< of each picture
+  std::vector<Pose2> odom_from_robot;            ///< of each picture; empty where the drive has no odometry
   /// @pre the drive outlives them
   [[nodiscard]] std::vector<PlacedPicture> placed() const;
 };
@@ -26,8 +27,8 @@ struct CeilingDrive {
 [[nodiscard]] Result<CeilingCamera> read_up_camera(const std::filesystem::path& path);
 
 /// What `docent-lab take-pictures` writes, or a robot's own recording in this form: `cameras.yaml`, `poses.csv` with
-/// the columns picture, map_x, map_y [m] and map_theta [rad], and the pictures up/NNNNNN.png, grey or in colour.
-/// Nothing else is read. Error: "FILE:LINE: ...".
+/// the columns picture, map_x, map_y [m] and map_theta [rad], if it has them odometry_x, odometry_y and odometry_theta,
+/// and the pictures up/NNNNNN.png, grey or in colour. Nothing else is read. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<CeilingDrive> read_ceiling_drive(const std::filesystem::path& folder);
 
 }  // namespace docent::vision

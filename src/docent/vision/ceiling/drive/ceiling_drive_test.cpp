@@ -67,6 +67,17 @@ TEST_F(CeilingDriveTest, ReadsPicturesPosesAndTheCamera) {
   EXPECT_NEAR(left->x() - above->x(), -5.0 * 0.2 / 1.75, 1e-9);
 }
 
+TEST_F(CeilingDriveTest, ReadsOdometryWhereThereIsSome) {
+  put_whole();
+  EXPECT_FALSE(read_ceiling_drive(folder_)->placed()[1].odom_from_robot);
+  put("poses.csv",
+      "picture,odometry_x,odometry_y,odometry_theta,map_x,map_y,map_theta\n3,0,0,0,1,2,0\n7,0.5,0.25,1,1,2,0\n");
+  const auto placed = read_ceiling_drive(folder_);
+  ASSERT_TRUE(placed) << placed.error().message;
+  EXPECT_EQ(placed->odom_from_robot[1].y, 0.25);
+  EXPECT_EQ(placed->map_from_robot[1].y, 2.0);
+}
+
 TEST_F(CeilingDriveTest, NamesFileAndLineOfWhatCannotBe) {
   put_whole();
   put("poses.csv", "picture,map_x,map_y\n");
