@@ -427,7 +427,9 @@ Result<LaserLog> read_carmen_log(const std::filesystem::path& path) {
   const auto text = read_gzip_text(path);
   if (!text) return tl::unexpected<Error>(text.error());
   if (text->fault.empty()) return parse_carmen_log(text->content, path.string());
-  auto log = parse_carmen_log(text->content, path.string());
+  // Without the last line: half a number is one, too.
+  const std::string_view whole{text->content};
+  auto log = parse_carmen_log(whole.substr(0, whole.rfind('\n') + 1), path.string());
   if (!log) return fail(log.error().message + "; " + text->fault);
   log->notes.insert(log->notes.begin(), text->fault + ": what came before is used");
   return log;
