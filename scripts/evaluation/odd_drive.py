@@ -200,6 +200,8 @@ def fault_of(case, answer):
     count = case.get("scans", len(drive.truth))
     if len(scans) != count and not (case.get("loses") and len(scans) < count):
         return f"{len(scans)} scans for {count}"
+    if len(scans) < case.get("least", 0):
+        return f"{len(scans)} scans for {case['least']} or more before the cut"
     for scan, (_, _, points) in zip(scans, truth):
         x, y, heading = scan["mount"]
         for k, r in enumerate(scan["ranges"]):

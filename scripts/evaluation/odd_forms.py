@@ -127,6 +127,24 @@ def torn(folder, rng):
     return case_of(path, [drive], loses=True, refusal="holds no|early|damaged|nothing", excuse="early|damage|broken|left out|no end|cut")
 
 
+def cut(folder, rng):
+    """All in one chunk or one database, cut anywhere behind its beginning: what stands before the cut is read, of what is not packed nearly all."""
+    drive, _, messages = one(rng)
+    form = rng.choice(["mcap", "mcap lz4", "mcap zstd", "bag", "bag bz2", "bag lz4", "db3"])
+    path = folder / {"m": "odd.mcap", "b": "odd.bag", "d": "odd_0.db3"}[form[0]]
+    if form == "db3":
+        database(path, messages)
+    elif form.startswith("bag"):
+        ros1_bag(path, as_ros1(messages), form[4:] or "none", 1)
+    else:
+        mcap(path, messages, form[5:], 1)
+    data, share = path.read_bytes(), rng.uniform(0.5, 0.97)
+    path.write_bytes(data[:int(share * len(data))])
+    if " " in form:  # packed in blocks, of which the first may be cut
+        return case_of(path, [drive], loses=True, refusal="holds no", excuse="early")
+    return case_of(path, [drive], loses=True, least=int(len(drive.truth) * (share - 0.15)), say="early")
+
+
 def both_forms(folder, rng):
     """The same recording twice in one folder, as after a conversion: not twice the scans."""
     drive, _, messages = one(rng)
@@ -207,4 +225,5 @@ def encodings(folder, rng):
 
 
 KINDS = {"containers": plain, "packed by file": zstd_by_file, "packed by message": zstd_by_message, "split": split_parts, "torn": torn,
+         "cut in its only chunk": cut,
          "twice in a folder": both_forms, "out of order": out_of_order, "bags of ROS 1": ros1_forms, "encodings": encodings}

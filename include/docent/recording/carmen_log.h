@@ -23,9 +23,13 @@ namespace docent::recording {
 /// - **Times.** The first time of a line; where all are equal, the logger's time; where those are equal too, even
 /// steps.
 ///   A time that falls is raised to the one before.
-/// - **A torn last line** (no line feed: the recorder was killed) is left out.
+/// - **A torn last line** (no line feed: the recorder was killed) is left out; of a gzip file that is cut, what came
+///   before is read.
+/// - **A line that says less, more or other than its kind must**, a pose that is no number among them, is left out,
+/// where
+///   it is at most one in ten.
 ///
-/// Error: "FILE:LINE: …" for a line that says less or other than its kind must; "FILE: …" when no scan is in it.
+/// Error: "FILE:LINE: …" for the first of more such lines; "FILE: …" when no scan is in it.
 [[nodiscard]] Result<LaserLog> read_carmen_log(const std::filesystem::path& path);
 /// The same from memory; `name` stands where the file's name would.
 [[nodiscard]] Result<LaserLog> parse_carmen_log(std::string_view text, const std::string& name);

@@ -54,6 +54,7 @@ class RosLaserLogBuilder {
   [[nodiscard]] RecordedStamp stamp_of(const std_msgs::Header& header, Time recorded) const;
   void refuse(const std::string& topic, const std::string& why);
   [[nodiscard]] std::string refused_text() const;
+  [[nodiscard]] Error no_scan() const;
   template <class T>
   void add_as(const Rosbag2Message& message,
               void (RosLaserLogBuilder::*take)(const std::string& topic, T message, Time recorded));
@@ -85,8 +86,9 @@ class RosLaserLogBuilder {
   std::map<std::string, OdometryTopic> tf_odometry_;  ///< by robot_of; of several frames of one the base's
   std::map<std::string, FrameTree> frames_;           ///< by name space
   std::vector<Ping> pings_;
-  std::map<std::string, Refused> refused_;  ///< by topic
-  RecordedRanges ranges_;                   ///< of each topic, as they stand in the recording
+  std::map<std::string, Refused> refused_;     ///< by topic
+  std::map<std::string, std::string> others_;  ///< topics that are not read, with their types
+  RecordedRanges ranges_;                      ///< of each topic, as they stand in the recording
   ChosenTopics chosen_;
   std::string base_frame_;
   std::int64_t count_ = 0;                     ///< of messages that have a time

@@ -52,7 +52,12 @@ Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
     if (depth > 64) return fail(name + ":1: nested more than 64 deep");
   }
   try {
-    return YamlFile{YAML::Load(text), std::move(name)};
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    for (std::size_t i = 1; i < documents.size(); ++i)  // a parser of the first would pass over them without a word
+      if (!documents[i].IsNull())
+        return tl::unexpected<Error>(
+            YamlFile{documents[i], name}.fault(documents[i], "another YAML document begins here: one alone is read"));
+    return YamlFile{documents.empty() ? YAML::Node{} : documents.front(), std::move(name)};
   } catch (const YAML::Exception& exception) {
     const std::string line = is_option(name) ? "" : ":" + std::to_string(exception.mark.line + 1);
     return fail(name + line + ": not valid YAML: " + on_one_line(exception.msg));

@@ -57,6 +57,8 @@ TEST(Yaml, FaultsNameFileAndLine) {
   EXPECT_EQ(fault_of("count: 1\ncount: 2\n"), "f.yaml:2: key 'count' stands twice");
   EXPECT_TRUE(fault_of("name: [\n").starts_with("f.yaml:2: not valid YAML"));
   EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
+  EXPECT_EQ(fault_of("name: a\n---\ncount: 3\n"), "f.yaml:3: another YAML document begins here: one alone is read");
+  EXPECT_EQ(fault_of("---\nname: a\n...\n---\n"), "") << "an empty one says nothing";
 }
 
 TEST(Yaml, AMisspeltKeyIsToldFromTheOneThatIsMeant) {

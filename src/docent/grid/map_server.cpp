@@ -28,6 +28,7 @@ constexpr double kNearSaversUnknown = 0.005;      ///< of white
 constexpr std::size_t kLarge = 25'000'000;        ///< [cells]: of a larger map only what is known is kept
 constexpr std::size_t kMost = 400'000'000;        ///< [cells]
 constexpr std::size_t kRowsBetween = 256;         ///< between two words of how far the reading is
+constexpr double kCoarse = 0.5, kFine = 0.002;    ///< [m] beyond these a resolution is as likely a slip
 constexpr int kRim = 20;                          ///< [cells] of what is unknown round what is kept
 
 struct MapYaml {
@@ -58,6 +59,25 @@ Result<void> keys_stand_once(const YamlFile& file) {
     if (entry.first.IsScalar() && !keys.insert(entry.first.Scalar()).second)
       return tl::unexpected<Error>(file.fault(entry.first, "key '" + entry.first.Scalar() + "' stands here twice"));
   return {};
+}
+
+/// The first document of the file, which is all that map_server reads.
+Result<YamlFile> load_first_document(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  auto text = read_file(path);
+  if (!text) return tl::unexpected<Error>(text.error());
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(*text);
+    const auto another = std::find_if(documents.begin() + (documents.empty() ? 0 : 1), documents.end(),
+                                      [](const YAML::Node& document) { return !document.IsNull(); });
+    if (another != documents.end()) {
+      const auto mark = another->Mark();
+      notes.push_back("another YAML document begins in line " + std::to_string(mark.line + 1) + ": it is left out");
+      text->resize(text->rfind("---", static_cast<std::size_t>(mark.pos)));
+    }
+  } catch (const YAML::Exception&) {
+    return YamlFile::parse(*text, path.string());  // says where
+  }
+  return YamlFile::parse(*text, path.string());
 }
 
 /// What is said by the file, in the terms of this program.
@@ -98,6 +118,12 @@ Result<Meaning> meaning_of(const YamlFile& file, const MapYaml& yaml, std::vecto
                   .mode = lower_case(yaml.mode)};
   if (!(yaml.resolution >= kFinest && yaml.resolution < 10.0))
     return fault("resolution", "resolution must be in (0, 10) m");
+  if (yaml.resolution > kCoarse || yaml.resolution < kFine) {
+    std::array<char, 120> text{};
+    std::snprintf(text.data(), text.size(), "the resolution of %g m a cell is far %s than that of robots' maps",
+                  yaml.resolution, yaml.resolution > kCoarse ? "coarser" : "finer");
+    notes.emplace_back(text.data());
+  }
   if (yaml.origin.size() != 3) return fault("origin", "origin must be [x, y, yaw]");
   for (const auto& [text, field] :
        {std::pair{yaml.origin[0], &meaning.origin.x}, {yaml.origin[1], &meaning.origin.y}}) {
@@ -248,9 +274,9 @@ Result<LoadedMap> read_map(const std::filesystem::path& yaml_path, const Reading
     return fail(yaml_path.string() + ": this is the image of a map; name the YAML file that says its scale" +
                 (std::filesystem::exists(beside) ? ", " + beside.string() : ""));
   }
-  const auto file = YamlFile::load(yaml_path);
-  if (!file) return tl::unexpected<Error>(file.error());
   LoadedMap loaded;
+  const auto file = load_first_document(yaml_path, loaded.notes);
+  if (!file) return tl::unexpected<Error>(file.error());
   MapYaml yaml;
   if (auto once = keys_stand_once(*file); !once) return tl::unexpected<Error>(once.error());
   const auto unknown = read_yaml_leniently(*file, file->root(), yaml);

@@ -138,6 +138,28 @@ TEST_F(Maps, ReadsWhatMapServerReads) {
   EXPECT_FALSE(load_map(folder_ / "m.yaml"));
 }
 
+TEST_F(Maps, AnOddResolutionAndASecondDocumentAreSaid) {
+  write("m.pgm", "P2\n2 2\n255\n0 205 254 254\n");
+  const auto notes_of = [&](const std::string& resolution, const std::string& end) {
+    write("m.yaml", "---\nimage: m.pgm\nresolution: " + resolution + "\norigin: [0, 0, 0]\n" + end);
+    const auto read = read_map(folder_ / "m.yaml");
+    EXPECT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->map.frame.resolution, std::stod(resolution)) << "the first document holds";
+    return read->notes;
+  };
+  for (const char* usual : {"0.01", "0.05", "0.25", "0.5"}) EXPECT_TRUE(notes_of(usual, "").empty()) << usual;
+  for (const auto& [odd, word] : {std::pair{"5", "coarser"}, {"0.55", "coarser"}, {"0.0005", "finer"}}) {
+    const auto notes = notes_of(odd, "");
+    ASSERT_EQ(notes.size(), 1U) << odd;
+    EXPECT_NE(notes[0].find(std::string{odd} + " m a cell is far " + word), std::string::npos) << notes[0];
+  }
+  const auto second = notes_of("0.05", "---\nresolution: 0.1\n# --- no more\n");
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(second[0], "another YAML document begins in line 6: it is left out");
+  EXPECT_TRUE(notes_of("0.05", "---\n---\n").empty());
+  EXPECT_EQ(notes_of("0.05", "---\n...\n---\n- 3\n").size(), 1U);
+}
+
 TEST_F(Maps, AnyLineEndsOfAPgm) {
   write("m.yaml", "image: m.pgm\nresolution: 0.5\norigin: [0, 0, 0]\n");
   const std::string cells{"\x00\xcd\xfe\xfe", 4};

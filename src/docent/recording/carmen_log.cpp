@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "docent/base/files.h"
 #include "docent/messages/message_fitness.h"
+#include "docent/recording/gzip_text.h"
 #include "docent/recording/log_odometry.h"
 #include "docent/recording/rosbag/stamp_clock.h"
 
@@ -18,8 +18,11 @@ namespace {
 
 constexpr double kMostField = 2.0 * std::numbers::pi + 0.1;  ///< [rad] of one scan, as fault_of has it
 constexpr double kFinest = 1e-5;                             ///< [rad] between two beams, likewise
-constexpr double kSickLimit = 80.0;    ///< [m]; beyond it SICK scanners write codes, not distances
-constexpr double kInventedStep = 0.2;  ///< [s]
+constexpr double kSickLimit = 80.0;       ///< [m]; beyond it SICK scanners write codes, not distances
+constexpr double kInventedStep = 0.2;     ///< [s]
+constexpr std::size_t kMostNamed = 3;     ///< lines that are left out
+constexpr std::size_t kFaultyShare = 10;  ///< where one of so many lines is wrong, so is the file
+constexpr const char* kWrongCount = ": is the number of readings wrong?";
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Why a line is wrong; thrown within this file only.
@@ -91,11 +94,16 @@ Clocks read_clocks(Words& words) {
   if (std::abs(clocks.message) > kLastSecond) clocks.message = std::numeric_limits<double>::quiet_NaN();
   const std::string_view host = words.word();
   if (host.empty()) return clocks;
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(host.data(), host.data() + host.size(), number);
+  if (error == std::errc{} && end == host.data() + host.size() && host.find('.') != std::string_view::npos)
+    throw LineFault{"'" + std::string{host.substr(0, 40)} + "' where a computer's name should be" + kWrongCount};
   const std::string_view logger = words.word();
   double value = 0.0;
   if (std::from_chars(logger.data(), logger.data() + logger.size(), value).ec == std::errc{} && std::isfinite(value) &&
       std::abs(value) <= kLastSecond)
     clocks.logger = value;
+  if (!words.word().empty()) throw LineFault{std::string{"the line goes on behind its times"} + kWrongCount};
   return clocks;
 }
 
@@ -132,6 +140,7 @@ class Collector {
     return std::move(log_);
   }
   void note(std::string text) { log_.notes.push_back(std::move(text)); }
+  [[nodiscard]] std::size_t taken() const { return log_.scans.size() + log_.odometry.size(); }
 
  private:
   void old_laser(Words& words, bool rear, int number) {
@@ -391,6 +400,7 @@ class Collector {
 Result<LaserLog> parse_carmen_log(std::string_view text, const std::string& name) {
   Collector collector{name};
   int number = 0;
+  std::vector<std::string> faults;
   while (!text.empty()) {
     ++number;
     const std::size_t end = text.find('\n');
@@ -400,17 +410,29 @@ Result<LaserLog> parse_carmen_log(std::string_view text, const std::string& name
     try {
       collector.line(line, number);
     } catch (const LineFault& fault) {
-      if (!torn) return fail(name + ":" + std::to_string(number) + ": " + fault.what);
-      collector.note("line " + std::to_string(number) + " is torn and was left out");
+      if (torn) collector.note("line " + std::to_string(number) + " is torn and was left out");
+      if (!torn) faults.push_back(std::to_string(number) + ": " + fault.what);
     }
+  }
+  if (faults.size() * kFaultyShare > collector.taken()) return fail(name + ":" + faults.front());
+  if (!faults.empty()) {
+    std::string note = std::to_string(faults.size()) + (faults.size() == 1 ? " line was" : " lines were") + " left out";
+    for (std::size_t i = 0; i < std::min(faults.size(), kMostNamed); ++i) note += "; line " + faults[i];
+    collector.note(note + (faults.size() > kMostNamed ? "; and so on" : ""));
   }
   return collector.finish();
 }
 
 Result<LaserLog> read_carmen_log(const std::filesystem::path& path) {
-  const auto text = read_maybe_gzipped(path);
+  const auto text = read_gzip_text(path);
   if (!text) return tl::unexpected<Error>(text.error());
-  return parse_carmen_log(*text, path.string());
+  if (text->fault.empty()) return parse_carmen_log(text->content, path.string());
+  // Without the last line: half a number is one, too.
+  const std::string_view whole{text->content};
+  auto log = parse_carmen_log(whole.substr(0, whole.rfind('\n') + 1), path.string());
+  if (!log) return fail(log.error().message + "; " + text->fault);
+  log->notes.insert(log->notes.begin(), text->fault + ": what came before is used");
+  return log;
 }
 
 }  // namespace docent::recording

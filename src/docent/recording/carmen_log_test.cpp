@@ -1,6 +1,7 @@
 #include "docent/recording/carmen_log.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -233,6 +234,67 @@ TEST(CarmenLog, FaultsNameFileAndLine) {
     EXPECT_EQ(log.error().message.find('\n'), std::string::npos);
   }
   EXPECT_FALSE(read_carmen_log("/nowhere/at.all"));
+}
+
+TEST(CarmenLog, AWrongLineInFiftyIsLeftOutAndNamed) {
+  std::string good;
+  for (int i = 0; i < 50; ++i) good += scan_line(5, "1.5", std::to_string(100.5 + i));
+  for (const auto& [line, why] : std::vector<std::pair<std::string, std::string>>{
+           {"FLASER 5 1 1 1 1 1 0.5 nan 0 0.5 0 0 160.5 host 160.5\n", "line 51: the laser's pose is out of range"},
+           {"FLASER 5 1 1 1 1 1 0.5 0 0 0.5 inf 0 160.5 host 160.5\n", "line 51: the odometry is out of range"},
+           {"ODOM nan 0 0 0 0 0 160.5 host 160.5\n", "line 51: the odometry is out of range"},
+           {"FLASER 5 1 1 1 1 0.5 0 0 0.5 0 0 160.5 host 160.5\n", "line 51: 'host' where the time should be"},
+           {"FLASER 5 1 1 1 1 1 1 0.5 0 0 0.5 0 0.25 160.5 host 160.5\n", "is the number of readings wrong?"},
+           {"FLASER 5 1 1 1 1 1 1 0.5 0 0 0.5 0 0.25 160.5\n", "is the number of readings wrong?"},
+           {"FLASER 5 1 1 1 1 1 1 1 0.5 0 0 0.5 0 0.25 160.5\n", "is the number of readings wrong?"},
+           {"FLASER 4 1 1 1 1 1 1 1 0.5 0 0 0.5 0 0.25 160.5 host 160.5\n", "is the number of readings wrong?"}}) {
+    const auto log = parse_carmen_log(good + line, "log");
+    ASSERT_TRUE(log) << log.error().message;
+    EXPECT_EQ(log->scans.size(), 50U) << line;
+    EXPECT_TRUE(log->odometry.empty());
+    ASSERT_EQ(log->notes.size(), 1U) << line;
+    EXPECT_NE(log->notes[0].find("1 line was left out; line 51: "), std::string::npos) << log->notes[0];
+    EXPECT_NE(log->notes[0].find(why), std::string::npos) << log->notes[0];
+    std::string many = good;
+    for (int i = 0; i < 6; ++i) many += line;
+    const auto refused = parse_carmen_log(many, "log");
+    ASSERT_FALSE(refused) << "one line in ten is too many";
+    EXPECT_EQ(refused.error().message.rfind("log:51: ", 0), 0U) << refused.error().message;
+  }
+}
+
+TEST(CarmenLog, OfAGzipFileThatIsCutWhatCameBeforeIsRead) {
+  const auto path = std::filesystem::path{::testing::TempDir()} / "docent_carmen_cut.log.gz";
+  std::string text;
+  for (int i = 0; i < 2000; ++i) text += scan_line(20, std::to_string(1.0 + 0.001 * (i * 37 % 991)), std::to_string(i));
+  const gzFile file = gzopen(path.c_str(), "wb");
+  ASSERT_EQ(gzwrite(file, text.data(), static_cast<unsigned>(text.size())), static_cast<int>(text.size()));
+  gzclose(file);
+  const auto whole = read_carmen_log(path);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(whole->scans.size(), 2000U);
+  const std::string bytes = *read_file(path);
+  ASSERT_TRUE(write_file_atomically(path, bytes.substr(0, 6 * bytes.size() / 10)));
+  const auto cut = read_carmen_log(path);
+  ASSERT_TRUE(cut) << cut.error().message;
+  EXPECT_GT(cut->scans.size(), 1000U);
+  EXPECT_LT(cut->scans.size(), 1400U);
+  EXPECT_NEAR(to_seconds(cut->scans.back().time), static_cast<double>(cut->scans.size()) - 1.0, 1e-6);
+  EXPECT_NE(cut->notes.front().find("the gzip stream ends early: what came before is used"), std::string::npos)
+      << cut->notes.front();
+  // Damaged on the way: the stream shows it, or its lines do.
+  std::string damaged = bytes;
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) damaged[i] = static_cast<char>(~damaged[i]);
+  ASSERT_TRUE(write_file_atomically(path, damaged));
+  const auto read = read_carmen_log(path);
+  if (read) {
+    EXPECT_FALSE(read->notes.empty());
+  }
+  ASSERT_TRUE(write_file_atomically(path, bytes.substr(0, 30)));
+  const auto nothing = read_carmen_log(path);
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message.find("ends early"), std::string::npos) << nothing.error().message;
+  std::filesystem::remove(path);
 }
 
 TEST(CarmenLog, ATornLastLineIsLeftOut) {

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -294,6 +295,64 @@ TEST_F(LaserLogFolder, SonarsWhereAskedFor) {
   EXPECT_NEAR(log->base_from_sonar[0].y, 0.25, 1e-9);
   ASSERT_EQ(log->notes.size(), 1U);
   EXPECT_NE(log->notes[0].find("sonar_lost"), std::string::npos);
+}
+
+TEST_F(LaserLogFolder, WithoutAScanItSaysWhatIsThereAndWhatToDo) {
+  std::vector<Raw> messages;
+  for (const Raw& message : drive())
+    if (message.type == nav_msgs::Odometry::kType) messages.push_back(message);
+  messages.push_back({"/velodyne_points", "sensor_msgs/msg/PointCloud2", time_from_seconds(110), {0, 1, 0, 0}});
+  write_mcap(folder_ / "cloud.mcap", messages);
+  const auto cloud = read_laser_log(folder_ / "cloud.mcap");
+  ASSERT_FALSE(cloud);
+  for (const char* part :
+       {"holds no laser scan", "/velodyne_points (sensor_msgs/msg/PointCloud2)", "/odom", "pointcloud_to_laserscan"})
+    EXPECT_NE(cloud.error().message.find(part), std::string::npos) << cloud.error().message;
+  sensor_msgs::LaserScan empty;
+  empty.range_max = 10.0F;
+  for (int i = 0; i < 5; ++i) messages.push_back(raw("/scan", time_from_seconds(110 + i), empty));
+  write_mcap(folder_ / "empty.mcap", messages);
+  const auto none = read_laser_log(folder_ / "empty.mcap");
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("5 of /scan (a scan without readings)"), std::string::npos)
+      << none.error().message;
+  messages = drive();
+  messages.push_back(raw("/scan_front", time_from_seconds(111), empty));
+  write_mcap(folder_ / "some.mcap", messages);
+  const auto some = read_laser_log(folder_ / "some.mcap");
+  ASSERT_TRUE(some) << some.error().message;
+  const auto says_so = [](const std::string& note) { return note.find("without readings") != std::string::npos; };
+  EXPECT_EQ(std::count_if(some->notes.begin(), some->notes.end(), says_so), 1);
+}
+
+TEST_F(LaserLogFolder, OddNamesAndKindsAreReadOrNamed) {
+  std::vector<Raw> messages = drive();
+  write_mcap(folder_ / "bag_0.mcap", messages);
+  ASSERT_TRUE(write_file_atomically(folder_ / "metadata.yaml",
+                                    "rosbag2_bagfile_information:\n  relative_file_paths: [bag_0.mcap]\n"));
+  expect_drive(read_laser_log(folder_ / "metadata.yaml"));
+  std::filesystem::remove_all(folder_ / "metadata.yaml");
+  for (Raw& message : messages) message.type.erase(message.type.find("/msg"), 4);
+  write_mcap(folder_ / "bag_0.mcap", messages);
+  expect_drive(read_laser_log(folder_ / "bag_0.mcap"));
+  const auto fault_of = [&](const char* name, const std::string& content) {
+    EXPECT_TRUE(write_file_atomically(folder_ / name, content));
+    const auto log = read_laser_log(folder_ / name);
+    return log ? std::string{"read"} : log.error().message;
+  };
+  EXPECT_NE(fault_of("a.zip", "PK\x03\x04 and so on").find("is an archive (zip): unpack it first"), std::string::npos);
+  EXPECT_NE(fault_of("a.tar", std::string(257, 'a') + "ustar").find("is an archive (tar)"), std::string::npos);
+  EXPECT_NE(fault_of("a.bag", "").find("a.bag: is empty"), std::string::npos);
+}
+
+TEST_F(LaserLogFolder, TimesOfTheFileBefore1970TellNothing) {
+  std::vector<Raw> messages = drive();
+  for (Raw& message : messages) message.time.nanoseconds = -message.time.nanoseconds;
+  write_database(folder_ / "bag_0.db3", messages);
+  const auto log = read_laser_log(folder_ / "bag_0.db3");
+  ASSERT_FALSE(log) << "in the order of such times the robot drives backwards";
+  EXPECT_NE(log.error().message.find("the time in the file lies before 1970"), std::string::npos)
+      << log.error().message;
 }
 
 }  // namespace

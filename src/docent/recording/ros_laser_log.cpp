@@ -102,12 +102,13 @@ void RosLaserLogBuilder::add(const Rosbag2Message& message) {
                          message.type == tf2_msgs::TFMessage::kType ||
                          (options_.with_sonars && message.type == sensor_msgs::Range::kType);
   // Docent's virtual measurements come from the map, not from a sensor.
+  if (!is_wanted) others_.try_emplace(message.topic, message.type);
   if (!is_wanted || message.topic.starts_with("/docent/")) return;
   Rosbag2Message timed = message;
   if (options_.times == LogTimes::index)
     timed.time = Time{} + count_++ * kStep;
-  else if (std::abs(to_seconds(message.time)) > kLastSecond)
-    return refuse(message.topic, "the time in the file lies beyond the year 2106");
+  else if (message.time < Time{} || to_seconds(message.time) > kLastSecond)
+    return refuse(message.topic, "the time in the file lies before 1970 or beyond 2106");
   if (message.type == sensor_msgs::LaserScan::kType) {
     add_as<sensor_msgs::LaserScan>(timed, &RosLaserLogBuilder::take_scan);
   } else if (message.type == sensor_msgs::Range::kType) {
@@ -120,7 +121,7 @@ void RosLaserLogBuilder::add(const Rosbag2Message& message) {
 }
 
 void RosLaserLogBuilder::take_scan(const std::string& topic, sensor_msgs::LaserScan message, Time recorded) {
-  if (message.ranges.empty()) return;
+  if (message.ranges.empty()) return refuse(topic, "a scan without readings");
   message = in_order(std::move(message));
   // A driver that states no reach, or 0: it shows in the readings.
   if (!(message.range_max > message.range_min) && message.range_min >= 0.0F)
@@ -213,6 +214,34 @@ std::string RosLaserLogBuilder::refused_text() const {
   for (const auto& [topic, refused] : refused_)
     text += (text.empty() ? "" : ", ") + std::to_string(refused.count) + " of " + topic + " (" + refused.first + ")";
   return text;
+}
+
+/// With what is there instead, and what to do with it.
+Error RosLaserLogBuilder::no_scan() const {
+  constexpr std::size_t kMostNamed = 6;
+  std::string text = "holds no laser scan (sensor_msgs/LaserScan)";
+  if (const std::string refused = refused_text(); !refused.empty()) text += " that is fit; refused: " + refused;
+  bool has_cloud = false, has_echoes = false;
+  std::vector<std::string> there;
+  for (const auto& [topic, of] : odometry_) there.push_back(topic + " (" + nav_msgs::Odometry::kType + ")");
+  for (const auto& [topic, type] : others_) {
+    const bool is_cloud = type.find("PointCloud") != std::string::npos;
+    const bool is_echoes = type.find("MultiEchoLaserScan") != std::string::npos;
+    has_cloud = has_cloud || is_cloud;
+    has_echoes = has_echoes || is_echoes;
+    there.insert(is_cloud || is_echoes ? there.begin() : there.end(), topic + " (" + type + ")");
+  }
+  if (there.size() > kMostNamed) {
+    const std::string more = std::to_string(there.size() - kMostNamed) + " more";
+    there.resize(kMostNamed);
+    there.push_back(more);
+  }
+  if (!there.empty()) text += "; it holds " + listed(there);
+  if (has_cloud)
+    text +=
+        "; pointcloud_to_laserscan makes scans of a cloud: play the recording, and record the topic that it publishes";
+  if (has_echoes) text += "; laser_proc makes scans of several echoes: record its topic `first`";
+  return {text};
 }
 
 std::vector<Time> RosLaserLogBuilder::followed(const std::string& name, const std::vector<RecordedStamp>& stamps) {
@@ -381,8 +410,7 @@ void RosLaserLogBuilder::use_scans(const std::string& topic) {
 
 Result<LaserLog> RosLaserLogBuilder::finish() {
   const std::string refused = refused_text();
-  if (scans_.empty())
-    return fail(refused.empty() ? "holds no laser scan" : "holds no laser scan that is fit; refused: " + refused);
+  if (scans_.empty()) return tl::unexpected<Error>(no_scan());
   if (!refused.empty()) log_.notes.push_back("messages that cannot be were left out: " + refused);
   if (auto chosen = choose(); !chosen) return tl::unexpected<Error>(chosen.error());
   if (options_.times == LogTimes::index) {

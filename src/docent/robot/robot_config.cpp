@@ -53,6 +53,12 @@ bool is_topic(const std::string& name) {
   return before != '/';
 }
 
+/// Of one scanner of several, without a slash at its head.
+std::string spoken_topic(const Scanner& scanner) {
+  if (scanner.topic.empty()) return "scan_" + scanner.name;
+  return scanner.topic.front() == '/' ? scanner.topic.substr(1) : scanner.topic;
+}
+
 Result<void> check_scanners(const std::vector<Scanner>& scanners) {
   constexpr auto& kNames = RobotBody::kScannerNames;
   for (auto scanner = scanners.begin(); scanner != scanners.end(); ++scanner) {
@@ -71,6 +77,10 @@ Result<void> check_scanners(const std::vector<Scanner>& scanners) {
       return fail("body.scanners: the height of " + scanner->name + " must be 0.02..3 m");
     if (!scanner->topic.empty() && !is_topic(scanner->topic))
       return fail("body.scanners: '" + scanner->topic + "' is no topic of ROS 2");
+    const auto speaks_there = [&](const Scanner& other) { return spoken_topic(other) == spoken_topic(*scanner); };
+    if (const auto other = std::find_if(scanners.begin(), scanner, speaks_there); other != scanner)
+      return fail("body.scanners: " + other->name + " and " + scanner->name + " have one topic, " +
+                  spoken_topic(*scanner) + ": each needs its own");
     if (auto valid = check_kind(*scanner); !valid) return valid;
   }
   return {};

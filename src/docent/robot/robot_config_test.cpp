@@ -217,6 +217,24 @@ TEST(RobotConfig, AScannerSpeaksOnTheTopicThatIsSaid) {
   }
 }
 
+TEST(RobotBody, TwoScannersDoNotSpeakOnOneTopic) {
+  RobotBody body;
+  Scanner front, rear;
+  rear.name = "rear";
+  rear.frame = "laser_rear";
+  body.scanners = {front, rear};
+  EXPECT_TRUE(body.validate());
+  for (const auto& [of_front, of_rear] : {std::pair{"scan", "/scan"}, {"scan_rear", ""}, {"a/b", "a/b"}}) {
+    body.scanners[0].topic = of_front;
+    body.scanners[1].topic = of_rear;
+    const auto valid = body.validate();
+    ASSERT_FALSE(valid) << of_front;
+    EXPECT_NE(valid.error().message.find("front and rear have one topic"), std::string::npos) << valid.error().message;
+  }
+  body.scanners[1].topic = "a/c";
+  EXPECT_TRUE(body.validate());
+}
+
 TEST(RobotConfig, AMountIsSaidByAnyOfItsKeysElseByTheBase) {
   RobotConfig config;
   EXPECT_TRUE(config.body().scanners.at(0).has_mount);

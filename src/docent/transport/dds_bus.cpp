@@ -39,7 +39,9 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(DdsOptions options) {
                             participants_here(options.domain, table)));
   };
   dds_entity_t own_domain = 0;
-  if (std::getenv("CYCLONEDDS_URI") == nullptr) {
+  if (const char* uri = std::getenv("CYCLONEDDS_URI"); uri != nullptr) {
+    if (auto named = check_uri(uri); !named) return tl::unexpected<Error>(named.error());
+  } else {
     if (auto there = check_interface(options.interface, network_interfaces()); !there)
       return tl::unexpected<Error>(there.error());
     own_domain = dds_create_domain(domain_id, dds_configuration(options.interface).c_str());

@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "docent/transport/dds_bus.h"
 
@@ -57,6 +62,24 @@ Result<void> check_interface(const std::string& name, const std::vector<NetworkI
               (names.empty() ? "none" : names));
 }
 
+Result<void> check_uri(const std::string& uri) {
+  constexpr std::string_view kScheme = "file://";
+  for (std::size_t at = 0; (at = uri.find_first_not_of(", \t\n", at)) != std::string::npos;) {
+    if (uri[at] == '<') return {};  // XML goes on to the end
+    const std::size_t end = std::min(uri.find(',', at), uri.size());
+    std::string file = uri.substr(at, end - at);
+    at = end;
+    if (file.find('$') != std::string::npos) continue;  // which Cyclone DDS puts variables into
+    if (file.starts_with(kScheme)) file.erase(0, kScheme.size());
+    std::error_code code;
+    const bool is_folder = std::filesystem::is_directory(file, code);
+    if (is_folder || !std::ifstream{file})
+      return fail("CYCLONEDDS_URI names the file " + file +
+                  ", which cannot be read: " + (is_folder ? "it is a folder" : std::strerror(errno)));
+  }
+  return {};
+}
+
 // Thirteen modules, the simulator and tools need more than the nine participants that the default finds room for; a map
 // must fit into the writer's history while a reader is stopped. A process that was stopped for less than a minute is
 // still known when it goes on, and new ones are found within a second. Liveliness tells that a process died, not the
@@ -86,6 +109,23 @@ std::string in_words(const DdsReach& reach) {
   if (reach.interface == kLoopback)
     return domain + "this computer only (--interface lo, the default); a network card is heard with --interface NAME";
   return domain + "this computer and what is reached through " + reach.interface + " (--interface)";
+}
+
+std::vector<std::string> environment_notes(const DdsReach& reach,
+                                           const std::function<const char*(const char*)>& value_of) {
+  std::vector<std::string> notes;
+  const auto of = [&](const char* name) {
+    const char* value = value_of(name);
+    return std::string{value == nullptr ? "" : value};
+  };
+  if (const std::string domain = of("ROS_DOMAIN_ID"); !domain.empty() && domain != std::to_string(reach.domain))
+    notes.push_back("ROS_DOMAIN_ID is " + domain + " here, and this is domain " + std::to_string(reach.domain) +
+                    ": --domain " + domain + " joins the other");
+  if (const std::string speaks = of("RMW_IMPLEMENTATION"); speaks.find("zenoh") != std::string::npos)
+    notes.push_back("RMW_IMPLEMENTATION is " + speaks + ", which speaks no DDS: its programs are not heard");
+  if (!of("ROS_DISCOVERY_SERVER").empty())
+    notes.emplace_back("ROS_DISCOVERY_SERVER is set: programs that ask a discovery server are not heard without it");
+  return notes;
 }
 
 std::vector<RosLine> ros_lines(const DdsReach& reach, const std::string& shipped) {

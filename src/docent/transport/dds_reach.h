@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,21 @@ struct NetworkInterface {
 /// Error: this computer has none of that name that is up; names those that it has.
 [[nodiscard]] Result<void> check_interface(const std::string& name, const std::vector<NetworkInterface>& there);
 
+/// Error: CYCLONEDDS_URI names a file that cannot be read; says which. Several may be parted by commas; XML may stand
+/// there itself.
+[[nodiscard]] Result<void> check_uri(const std::string& uri);
+
 /// What Docent asks Cyclone DDS for. Another interface than loopback comes beside it, so that a robot whose network
 /// fails goes on talking to itself.
 [[nodiscard]] std::string dds_configuration(const std::string& interface);
 
 /// One line for a person: what holds, and why.
 [[nodiscard]] std::string in_words(const DdsReach& reach);
+
+/// What the environment says to ROS 2's programs and Docent does not go by, for a person.
+/// @param value_of  of a variable; null: it is not set
+[[nodiscard]] std::vector<std::string> environment_notes(const DdsReach& reach,
+                                                         const std::function<const char*(const char*)>& value_of);
 
 /// What the processes of ROS 2 must be told, so that both sides hear each other: one line for a shell.
 struct RosLine {

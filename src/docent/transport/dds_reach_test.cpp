@@ -1,9 +1,13 @@
 #include "docent/transport/dds_reach.h"
 
 #include <gtest/gtest.h>
+
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cstdio>
+#include <fstream>
+#include <map>
 
 #include <fstream>
 #include <iterator>
@@ -101,6 +105,42 @@ TEST(DdsReach, WhoFindsNoPlaceInADomainIsToldSo) {
   EXPECT_EQ(created.error().message.find("DDS cannot join domain 50: Error. All 121 places"), 0U)
       << created.error().message;
   EXPECT_TRUE(DdsBus::create({kFullDomain, "", {}})) << "a place is free again";
+}
+
+TEST(DdsReach, WhatTheEnvironmentSaysToOthersIsNoted) {
+  std::map<std::string, const char*> set;
+  const auto notes = [&](int domain) {
+    return environment_notes({domain, "lo", ""}, [&](const char* name) {
+      const auto value = set.find(name);
+      return value == set.end() ? nullptr : value->second;
+    });
+  };
+  EXPECT_TRUE(notes(0).empty());
+  set = {{"ROS_DOMAIN_ID", "42"}, {"RMW_IMPLEMENTATION", "rmw_fastrtps_cpp"}};
+  EXPECT_TRUE(notes(42).empty());
+  ASSERT_EQ(notes(0).size(), 1U);
+  EXPECT_EQ(notes(0)[0], "ROS_DOMAIN_ID is 42 here, and this is domain 0: --domain 42 joins the other");
+  set = {{"RMW_IMPLEMENTATION", "rmw_zenoh_cpp"}, {"ROS_DISCOVERY_SERVER", "10.0.0.1:11811"}, {"ROS_DOMAIN_ID", ""}};
+  EXPECT_EQ(notes(0).size(), 2U);
+}
+
+TEST(DdsReach, AFileThatTheUriNamesAndThatIsNotThereIsNamed) {
+  const std::string there = std::string{::testing::TempDir()} + "/docent_dds_uri.xml";
+  std::ofstream{there} << "<CycloneDDS/>";
+  for (const std::string& good :
+       {std::string{}, there, "file://" + there, there + ",<CycloneDDS/>",
+        std::string{"<CycloneDDS>, /nowhere</CycloneDDS>"}, std::string{"file://${HOME}/dds.xml"}, ", " + there})
+    EXPECT_TRUE(check_uri(good)) << good;
+  for (const auto& [bad, named] :
+       {std::pair<std::string, std::string>{"file:///nowhere/dds.xml",
+                                            "the file /nowhere/dds.xml, which cannot be read: No such file"},
+        {there + ",nowhere.xml", "the file nowhere.xml, "},
+        {"file://" + std::string{::testing::TempDir()}, "it is a folder"}}) {
+    const auto checked = check_uri(bad);
+    ASSERT_FALSE(checked) << bad;
+    EXPECT_NE(checked.error().message.find(named), std::string::npos) << checked.error().message;
+  }
+  std::remove(there.c_str());
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ std::filesystem::path there(std::filesystem::path folder) {
 Finding disk_of(const std::string& state) {
   std::error_code error;
   const auto place = there(std::filesystem::absolute(state, error));
+  if (!std::filesystem::is_directory(place, error))
+    return {"computer", "state", Verdict::wrong, place.string() + " is not a folder (--state)"};
   const auto space = std::filesystem::space(place, error);
   if (error) return {"computer", "disk", Verdict::wrong, state + ": " + error.message()};
   const double free = static_cast<double>(space.available) / kGigabyte;

@@ -64,7 +64,11 @@ void Sensors::listen() {
     tactile_.hear(from_message(tactile.header.stamp), bus_.now(), tactile.header.frame_id);
   });
   bus_.subscribe<tf2_msgs::TFMessage>(topics::kStaticTransforms, [this](const tf2_msgs::TFMessage& transforms) {
-    for (const auto& transform : transforms.transforms) mounts_[transform.child_frame_id] = transform;
+    for (const auto& transform : transforms.transforms) frames_.add_static(transform);
+    has_transforms_ = has_transforms_ || !transforms.transforms.empty();
+  });
+  bus_.subscribe<tf2_msgs::TFMessage>(topics::kTransforms, [this](const tf2_msgs::TFMessage& transforms) {
+    for (const auto& transform : transforms.transforms) frames_.add_moving(transform);
   });
   bus_.subscribe<docent_msgs::Health>(
       topics::kHealth, [this](const docent_msgs::Health& health) { modules_[health.module] = health.state; });
@@ -107,30 +111,27 @@ void Sensors::hear_scan(std::size_t i, const sensor_msgs::LaserScan& written) {
 }
 
 void Sensors::judge_mount(Finding& finding, const robot::Scanner& scanner) const {
-  // From the sensor up to base_link; the base may have frames between.
-  Pose2 base_from_sensor;
-  std::string frame = scanner.frame;
-  bool hangs = false;
-  for (int i = 0; i < 10 && frame != "base_link"; ++i) {
-    const auto found = mounts_.find(frame);
-    if (found == mounts_.end()) return;
-    const auto& transform = found->second.transform;
-    hangs = hangs != (std::hypot(transform.rotation.x, transform.rotation.y) > std::numbers::sqrt2 / 2.0);
-    const double yaw = 2.0 * (hangs ? std::atan2(transform.rotation.y, transform.rotation.x)
-                                    : std::atan2(transform.rotation.z, transform.rotation.w));
-    base_from_sensor = Pose2{transform.translation.x, transform.translation.y, Angle::radians(yaw)} * base_from_sensor;
-    frame = found->second.header.frame_id;
+  const auto told = frames_.mount_of(recording::plain_frame(scanner.frame), "base_link");  // or base_footprint
+  const auto shown = [](const Pose2& mount, bool hangs) {
+    return text_of("x %.2f, y %.2f, heading %.1f%s", mount.x, mount.y, mount.theta.degrees(),
+                   hangs ? ", upside down" : "");
+  };
+  if (!scanner.has_mount) {
+    if (told)
+      add(finding, Verdict::fine, "/tf_static has it at " + shown(told->base_from_sensor, told->is_upside_down));
+    else
+      add(finding, Verdict::wrong,
+          "robot.yaml says no x, y and heading, and no /tf_static says where '" + scanner.frame + "' is on base_link");
+    return;
   }
-  if (frame != "base_link") return;
+  if (!told) return;
   const Pose2 said = scanner.base_from_sensor();
-  const double apart = std::hypot(said.x - base_from_sensor.x, said.y - base_from_sensor.y);
-  const double turned = std::abs((said.theta - base_from_sensor.theta).radians()) * 180.0 / std::numbers::pi;
-  if (apart > kMoved || turned > kTurned || hangs != scanner.upside_down)
+  const double apart = distance(said.position(), told->base_from_sensor.position());
+  const double turned = std::abs((said.theta - told->base_from_sensor.theta).degrees());
+  if (apart > kMoved || turned > kTurned || told->is_upside_down != scanner.upside_down)
     add(finding, Verdict::wrong,
-        text_of("/tf_static has it at x %.2f, y %.2f, heading %.1f%s, robot.yaml at x %.2f, y %.2f, heading %.1f%s",
-                base_from_sensor.x, base_from_sensor.y, base_from_sensor.theta.radians() * 180.0 / std::numbers::pi,
-                hangs ? ", upside down" : "", said.x, said.y, scanner.heading,
-                scanner.upside_down ? ", upside down" : ""));
+        "/tf_static has it at " + shown(told->base_from_sensor, told->is_upside_down) + ", robot.yaml at " +
+            shown(said, scanner.upside_down));
 }
 
 void Sensors::judge_scans(std::vector<Finding>& all, Time begin) {
@@ -178,7 +179,7 @@ void Sensors::judge_odometry(std::vector<Finding>& all, Time begin) {
     if (fastest_ > 1.5 * body_.max_speed)
       add(finding, Verdict::wrong, text_of("faster than body.max_speed (%.2f m/s): other units?", body_.max_speed));
     finding.figures.emplace_back("fastest_m_s", fastest_);
-  } else if (mounts_.empty()) {
+  } else if (!has_transforms_) {
     add(finding, Verdict::fine, "a transform odom -> base_link on /tf would do");
   }
   all.push_back(std::move(finding));

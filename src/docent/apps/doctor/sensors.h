@@ -9,6 +9,7 @@
 #include "docent/apps/doctor/stream_watch.h"
 #include "docent/messages/topics.h"
 #include "docent/modules/shared/scanners.h"
+#include "docent/recording/rosbag/frame_tree.h"
 #include "docent/robot/robot_config.h"
 #include "docent/transport/bus.h"
 
@@ -65,8 +66,9 @@ class Sensors {
   double fastest_ = 0.0;  ///< [m/s] that odometry tells
   sensor_msgs::BatteryState last_battery_;
   std::map<std::string, StreamWatch> sonars_, infrareds_;
-  std::map<std::string, geometry_msgs::TransformStamped> mounts_;  ///< by the frame of what is mounted
-  std::map<std::string, std::string> modules_;                     ///< of a robot that runs: their states
+  recording::FrameTree frames_;
+  bool has_transforms_ = false;                 ///< somebody sends tf_static
+  std::map<std::string, std::string> modules_;  ///< of a robot that runs: their states
 };
 
 }  // namespace docent::apps::doctor_command

@@ -147,11 +147,12 @@ void map_ceiling(Options& options) {
   const double before = processor_seconds();
   for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { Watch::is_asked_to_end = true; });
   Watch watch{options};
-  const auto solved = vision::solve_mosaic(drive.camera, drive.placed(), options.params,
-                                           [&](const vision::MosaicStage& stage) { return watch.hear(stage); });
+  auto solved = vision::solve_mosaic(drive.camera, drive.placed(), options.params,
+                                     [&](const vision::MosaicStage& stage) { return watch.hear(stage); });
   watch.end();
   if (!solved) throw CommandFailed{options.drive + ": " + solved.error().message};
   const double seconds = processor_seconds() - before - watch.drawing_seconds();
+  solved->mosaic.is_cut_short = watch.is_cut_short();
   value_or_fail(vision::write_ceiling(options.out, solved->mosaic));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -191,7 +192,8 @@ void map_ceiling(Options& options) {
   for (const auto& part : report["parts"])
     std::printf("%8.3f m high: %.1f m2\n", part["height_m"].get<double>(), part["area_m2"].get<double>());
   std::printf("%s: %d x %d cells; %.1f s of one core, %.0f MB%s\n", options.out.c_str(), solved->mosaic.frame.columns,
-              solved->mosaic.frame.rows, seconds, megabytes, watch.is_cut_short() ? "; cut short" : "");
+              solved->mosaic.frame.rows, seconds, megabytes,
+              watch.is_cut_short() ? "; cut short, as the file says" : "");
 }
 
 }  // namespace
@@ -219,7 +221,7 @@ void add_map_ceiling_command(CLI::App& app) {
   command
       ->add_option("--seconds", options->seconds,
                    "[s] to end after, with what there is by then, as Ctrl-C does; 0: when it is done")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--resolution", options->params.resolution, "[m] of the mosaic's cells")
       ->check(CLI::Range(0.005, 0.5))

@@ -12,6 +12,7 @@
 #include "docent/apps/localize/localize_log.h"
 #include "docent/apps/localize/log_reference.h"
 #include "docent/apps/localize/map_poses.h"
+#include "docent/apps/localize/scan_odometry.h"
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/base/files.h"
@@ -89,15 +90,20 @@ pictures::Figure draw(const OccupancyGrid& map, const std::vector<mapping::Place
 
 /// Poses by matching scans, with a line of progress now and then.
 std::vector<Pose2> poses_by_graph(const recording::LaserLog& log, const ChosenScans& chosen,
-                                  const mapping::GraphMapperParams& params, nlohmann::json& report) {
+                                  const mapping::GraphMapperParams& params, const std::string& doubt,
+                                  nlohmann::json& report) {
   std::size_t told = 0;
-  const auto map = mapping::map_by_graph(chosen.scans, params, [&](const mapping::MappingProgress& progress) {
+  auto map = mapping::map_by_graph(chosen.scans, params, [&](const mapping::MappingProgress& progress) {
     if (progress.stage == "chain" && progress.done < told + 300) return;
     if (progress.stage == "loops" && progress.done < told + 300 && progress.done > told) return;
     told = progress.done;
     std::fprintf(stderr, "%s: %zu of %zu scans, %zu loops\n", progress.stage.c_str(), progress.done, progress.of,
                  progress.loops);
   });
+  if (map.judgement.is_trusted && !doubt.empty()) {
+    map.judgement.is_trusted = false;
+    map.judgement.reason = doubt;
+  }
   report["scans_matched"] = chosen.scans.size();
   report["loops"] = map.loops;
   report["loops_refused"] = map.loops_refused;
@@ -165,23 +171,42 @@ std::vector<Pose2> poses_by_em(const recording::LaserLog& log, const ChosenScans
   return poses_of_all(log, indices, map.map_from_base);
 }
 
+constexpr const char* kByScans = "scan matching alone";
+
 /// Poses of all scans, and of which of them the map is made: a robot that stands sees one visitor a thousand times.
 struct LearnedPoses {
   std::vector<Pose2> map_from_base;
   std::vector<std::size_t> sources;
 };
 
-LearnedPoses learned_poses(const recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
+LearnedPoses learned_poses(recording::LaserLog& log, const MapOptions& options, nlohmann::json& report) {
   const mapping::GraphMapperParams params;
+  std::string doubt;
+  report["placed_by"] = options.method == "odometry" ? "odometry"
+                        : options.method == "em"     ? "odometry and expectation maximization"
+                                                     : "odometry and scan matching";
+  if (has_no_odometry(log)) {
+    if (options.method == "odometry")
+      throw CommandFailed{options.choice.log +
+                          ": there is no odometry, or it never moves: --method graph maps by the scans"};
+    report["placed_by"] = kByScans;
+    std::fprintf(stderr,
+                 "there is no odometry, or it never moves: the robot's way is that on which scans fit together\n");
+    const ScanOdometry by_scans = odometry_by_scans(log, params);
+    report["steps_that_scans_do_not_tell"] = by_scans.blind;
+    doubt = by_scans.doubt();
+    std::erase_if(log.notes, [](const std::string& note) { return note.starts_with("there is no odometry"); });
+    log.notes.emplace_back("there is no odometry, or it never moves: the map is made by scan matching alone");
+  }
   const ChosenScans chosen = choose_scans(log, {}, params.points);
   if (options.method == "odometry") {
     LearnedPoses reckoned{{}, chosen.sources};
     for (const recording::LoggedScan& scan : log.scans) reckoned.map_from_base.push_back(scan.odom_from_base);
     return reckoned;
   }
-  return {
-      options.method == "em" ? poses_by_em(log, chosen, options, report) : poses_by_graph(log, chosen, params, report),
-      chosen.sources};
+  return {options.method == "em" ? poses_by_em(log, chosen, options, report)
+                                 : poses_by_graph(log, chosen, params, doubt, report),
+          chosen.sources};
 }
 
 /// As --reference reads them.
@@ -254,6 +279,7 @@ void make_map(const MapOptions& options) {
       options.method == "known-poses" || (options.method == "auto" && !options.choice.reference.empty());
   if (is_known && !(options.relations.empty() && options.poses.empty()))
     throw CommandFailed{"--relations and --poses are of maps whose poses are learned (--method graph)", 2};
+  report["placed_by"] = "the reference";
   if (!is_known) {
     const LearnedPoses learned = learned_poses(referenced.log, options, report);
     const std::vector<Pose2>& poses = learned.map_from_base;
@@ -290,9 +316,10 @@ void make_map(const MapOptions& options) {
                                {"free_m2", share(OccupancyGrid::kFree)},
                                {"occupied_m2", share(OccupancyGrid::kOccupied)}});
   if (!options.report.empty()) value_or_fail(write_file_atomically(options.report, report.dump(2) + "\n"));
-  std::printf("%s: %d x %d cells of %.2f m, %.0f m2 free, from %zu of %zu scans\n", (out / "map.yaml").c_str(),
+  const bool is_by_scans = report["placed_by"] == kByScans;
+  std::printf("%s: %d x %d cells of %.2f m, %.0f m2 free, from %zu of %zu scans%s\n", (out / "map.yaml").c_str(),
               map.frame.columns, map.frame.rows, params.resolution, report["free_m2"].get<double>(), placed.size(),
-              referenced.log.scans.size());
+              referenced.log.scans.size(), is_by_scans ? ", placed by scan matching alone: there is no odometry" : "");
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ void add_replay_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   command->add_option("--robot", options->deployment.robot, "robot.yaml of the robot; without it all defaults");
   command->add_option("--set", options->deployment.settings, "section.key=value, over robot.yaml; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start");
+  command->add_option("--start", options->start, "X,Y,DEG: where localize is told that the robot stands at the start")
+      ->check(pose_option());
   add_seed(*command, "--seed", options->deployment.seed, "Seed of everything random");
   add_cache_options(*command, options->replay.cache);
   command->add_option("--out", options->replay.out, "MCAP file to write: what happened this time")

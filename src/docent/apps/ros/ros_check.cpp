@@ -25,7 +25,7 @@ std::string without_slash(const std::string& topic) { return topic.starts_with('
 
 }  // namespace
 
-std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3) {
+std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3, const Eyes& eyes) {
   std::vector<Need> needs;
   needs.push_back({topic_info(topics::kOdometry),
                    true,
@@ -53,6 +53,17 @@ std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool 
         {topic_info(topics::kTactile), true, "the robot stands, unless body.tactile is false", {"avoid", "map"}});
   needs.push_back({topic_info(topics::kBattery), false, "it drives, and never goes to charge", {"mission", "web"}});
   needs.push_back({topic_info(topics::kObstacleLines), false, "it drives by its other sensors", {"avoid"}});
+  if (eyes.sight) {
+    const char* const without = "it drives, and sees no low things";
+    needs.push_back({topic_info(topics::kDepthImage), false, without, {"sight"}});
+    needs.push_back({topic_info(topics::kDepthInfo), false, without, {"sight"}});
+  }
+  if (eyes.ceiling) {
+    const char* const without = "it finds its place by its lasers alone";
+    needs.push_back({topic_info(topics::kCeilingImage), false, without, {"ceiling"}});
+    needs.push_back({topic_info(topics::kCeilingInfo), false, without, {"ceiling"}});
+    needs.push_back({topic_info(topics::kPoseFix), false, without, {"localize"}});
+  }
   needs.push_back({topic_info(topics::kCamera), false, "the page shows no picture", {"web"}});
   return needs;
 }

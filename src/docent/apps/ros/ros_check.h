@@ -19,9 +19,15 @@ struct Need {
   std::string without;               ///< what becomes of the robot
   std::vector<std::string> modules;  ///< that read it
 };
+/// Which of the robot's eyes are open.
+struct Eyes {
+  bool sight = false;    ///< sight.enabled: looks ahead and down
+  bool ceiling = false;  ///< ceiling.enabled
+};
 /// Of a robot with that body. @param needs_sonar  avoid.needs_sonar @param is_create3  robot.create3: its bumpers come
 /// on hazard_detection
-[[nodiscard]] std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3);
+[[nodiscard]] std::vector<Need> needs_of(const robot::RobotBody& body, bool needs_sonar, bool is_create3,
+                                         const Eyes& eyes = {});
 
 /// What came on a topic while the command listened.
 struct Arrivals {

@@ -72,6 +72,24 @@ TEST(RosCheck, NeedsAreThoseOfTheBody) {
   EXPECT_EQ(names("tactile"), 0);
 }
 
+TEST(RosCheck, OpenEyesWantTheirTopics) {
+  const robot::RobotBody body;
+  const auto of = [&](const Eyes& eyes) {
+    std::vector<std::string> names;
+    for (const Need& need : needs_of(body, true, false, eyes))
+      if (const std::string name = need.topic.name;
+          name.find("depth") == 0 || name.find("ceiling") == 0 || name.find("fix") != std::string::npos) {
+        names.push_back(name);
+        EXPECT_FALSE(need.is_needed) << "the robot drives without it";
+      }
+    return names;
+  };
+  EXPECT_EQ(of({}), std::vector<std::string>{});
+  EXPECT_EQ(of({.sight = true}), (std::vector<std::string>{"depth_camera/image", "depth_camera/camera_info"}));
+  EXPECT_EQ(of({.ceiling = true}),
+            (std::vector<std::string>{"ceiling_camera/image", "ceiling_camera/camera_info", "docent/pose_fix"}));
+}
+
 TEST_F(ABase, WhatArrivesIsFine) {
   add(true, "base", "rt/scan_front", "sensor_msgs/msg/LaserScan");
   const Finding finding = find({.messages = 20, .refused = 0, .refusal = ""});

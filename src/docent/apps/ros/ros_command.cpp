@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "docent/collision_avoidance/avoider/avoider_params.h"
 #include "docent/messages/topics.h"
 #include "docent/modules/drive/robot_module.h"
+#include "docent/modules/eyes/eye_places.h"
 #include "docent/transport/create3_support.h"
 #include "docent/transport/dds_bus.h"
 
@@ -54,11 +56,15 @@ void check(const Options& options) {
   Check result;
   result.reach = transport::dds_reach(deployment.domain, deployment.interface);
   result.interfaces = transport::network_interfaces();
+  result.notes = transport::environment_notes(result.reach, [](const char* name) { return std::getenv(name); });
   result.lines = deployment.ros_lines();
   result.seconds = options.seconds;
   const auto bus =
       value_or_fail(transport::DdsBus::create(deployment.bus_options(deployment.domain, "ros_check", config.body())));
-  const auto needs = needs_of(config.body(), avoid.needs_sonar, value_or_fail(modules::base_is_create3(config), 2));
+  const Eyes eyes{value_or_fail(config.section<modules::SightParams>("sight"), 2).enabled,
+                  value_or_fail(config.section<modules::CeilingParams>("ceiling"), 2).enabled};
+  const auto needs =
+      needs_of(config.body(), avoid.needs_sonar, value_or_fail(modules::base_is_create3(config), 2), eyes);
   std::map<std::string, Arrivals> arrivals;
   transport::RosNodeListener nodes{bus->participant()};
   listen(*bus, needs, options.seconds, arrivals);

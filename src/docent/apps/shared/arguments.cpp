@@ -57,6 +57,41 @@ std::string pose_text(const Pose2& pose) {
   return std::to_string(pose.x) + "," + std::to_string(pose.y) + "," + std::to_string(pose.theta.degrees());
 }
 
+CLI::Validator pose_option() {
+  return CLI::Validator{[](std::string& text) {
+                          try {
+                            static_cast<void>(parse_pose("", text));
+                            return std::string{};
+                          } catch (const CommandFailed&) {
+                            return text + ": expected three numbers X,Y,DEG [m, m, degrees]";
+                          }
+                        },
+                        "X,Y,DEG"};
+}
+
+CLI::Validator kept_folder() {
+  return CLI::Validator{[](std::string& text) {
+                          std::error_code code;
+                          std::filesystem::path there = std::filesystem::absolute(text, code);
+                          if (text.empty() || code) return std::string{"expected a folder"};
+                          while (!std::filesystem::exists(there, code) && there != there.parent_path())
+                            there = there.parent_path();
+                          if (std::filesystem::is_directory(there, code)) return std::string{};
+                          return there.string() + " is not a folder";
+                        },
+                        "FOLDER"};
+}
+
+void refuse_odd_numbers(CLI::App& app) {
+  for (const CLI::Option* option : app.get_options({})) {
+    if (option->count() == 0 || option->get_type_name().rfind("FLOAT", 0) != 0) continue;
+    for (const std::string& text : option->results())
+      if (!std::isfinite(std::strtod(text.c_str(), nullptr)))
+        throw CommandFailed{option->get_name() + " " + text + ": expected a number", 2};
+  }
+  for (CLI::App* command : app.get_subcommands({})) refuse_odd_numbers(*command);
+}
+
 namespace {
 
 namespace fs = std::filesystem;

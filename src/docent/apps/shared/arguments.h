@@ -18,6 +18,14 @@ namespace docent::apps {
 [[nodiscard]] Pose2 parse_pose(const std::string& option, const std::string& text);    ///< X,Y,DEG
 [[nodiscard]] std::string pose_text(const Pose2& pose);                                ///< what parse_pose reads
 
+/// For options of parse_pose: refused before the work begins, also by a command that has no use for it.
+[[nodiscard]] CLI::Validator pose_option();
+/// For options that name a folder for what must survive, which need not be there yet: refused where it is a file, or
+/// lies below one.
+[[nodiscard]] CLI::Validator kept_folder();
+/// CommandFailed where an option that wants a number was given one that is none or infinite: bounds let it pass.
+void refuse_odd_numbers(CLI::App& app);
+
 /// For options that become the beginning of topics' names, as ROS 2 has them.
 [[nodiscard]] CLI::Validator topic_prefix();
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "docent/apps/shared/command.h"
 
@@ -88,6 +89,40 @@ TEST(Arguments, TwoOptionsMayNotReplaceOneFile) {
   EXPECT_EQ(fault_of({"--report", "r.json", "--log", "l.csv", "--picture", "p.svg"}), "");
   EXPECT_EQ(fault_of({"--report", "/dev/null", "--log", "/dev/null"}), "");
   EXPECT_EQ(fault_of({"--report", "r.json", "--read", "r.json"}), "") << "reading is no writing";
+}
+
+TEST(Arguments, WhatIsNoPoseNoFolderOrNoNumberIsRefused) {
+  for (std::string pose : {"1,2,90", "-1.5,0,0"}) EXPECT_EQ(pose_option()(pose), "") << pose;
+  for (std::string pose : {"1,2", "1,2,90,4", "", "1;2;90", "nan,2,90", "1,2,ninety"})
+    EXPECT_NE(pose_option()(pose).find("expected three numbers X,Y,DEG"), std::string::npos) << pose;
+  const std::filesystem::path folder = std::filesystem::path{::testing::TempDir()} / "docent_kept_folder";
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "file").string();
+  std::ofstream{file} << "x";
+  std::string there = folder.string(), new_one = (folder / "a/b").string(), below = file + "/state", same = file;
+  EXPECT_EQ(kept_folder()(there), "");
+  EXPECT_EQ(kept_folder()(new_one), "");
+  EXPECT_EQ(kept_folder()(same), file + " is not a folder");
+  EXPECT_EQ(kept_folder()(below), file + " is not a folder");
+  std::filesystem::remove_all(folder);
+  const auto fault_of = [](const char* text) -> std::string {
+    CLI::App app;
+    CLI::App* command = app.add_subcommand("run", "a command");
+    double seconds = 1.0;
+    std::string name;
+    command->add_option("--seconds", seconds)->check(CLI::Range(1.0, 600.0));
+    command->add_option("--name", name);
+    app.parse(std::vector<std::string>{text, "--seconds", "inf", "--name", "run"});
+    try {
+      refuse_odd_numbers(app);
+    } catch (const CommandFailed& failure) {
+      EXPECT_EQ(failure.exit_code, 2);
+      return failure.message;
+    }
+    return "";
+  };
+  EXPECT_EQ(fault_of("nan"), "--seconds nan: expected a number") << "which no bound refuses";
+  EXPECT_EQ(fault_of("1.5"), "") << "a name may be inf";
 }
 
 TEST(Arguments, ANameThatBeginsTopicsIsOneOfRos2) {

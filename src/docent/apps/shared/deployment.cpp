@@ -14,6 +14,7 @@
 #include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/cache_folder.h"
 #include "docent/base/shipped_files.h"
+#include "docent/messages/topics.h"
 #include "docent/modules/host/process_class.h"
 #include "docent/modules/host/registry.h"
 #include "docent/museum/blank_museum.h"
@@ -25,6 +26,21 @@ namespace docent::apps {
 namespace {
 constexpr const char* kCrippling = "evaluation";  ///< the section that docent-lab reads
 constexpr const char* kOnlyInTheLaboratory = "cripples the robot, which docent-lab alone does, in simulations";
+
+/// That no scanner is said to speak where other messages go.
+Result<void> scanners_have_free_topics(const robot::RobotBody& body) {
+  Result<void> right;
+  for (const robot::Scanner& scanner : body.scanners) {
+    std::string topic = body.topic_of(scanner);
+    if (topic.starts_with('/')) topic.erase(0, 1);
+    for_each_robot_topic([&](const auto& other) {
+      const std::string type = transport::topic_info(other).type->name;
+      if (topic == other.name && type != sensor_msgs::LaserScan::kType)
+        right = fail("body.scanners: " + scanner.name + " cannot speak on " + topic + ", where messages are " + type);
+    });
+  }
+  return right;
+}
 }  // namespace
 
 void Deployment::add_options(CLI::App& command, Museum named) {
@@ -33,15 +49,18 @@ void Deployment::add_options(CLI::App& command, Museum named) {
     museum = default_museum();
     command.add_option("--museum", museum, "Folder of the museum")->capture_default_str();
   }
-  command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")->capture_default_str();
+  command.add_option("--state", state, "Folder for what must survive: checkpoints, databases")
+      ->check(kept_folder())
+      ->capture_default_str();
   add_cache_options(command, cache);
   add_robot_options(command);
   add_bus_options(command);
   add_seed(command, "--seed", seed, "Seed of everything random");
-  command.add_option(
-      "--explore", explore,
-      "X,Y,DEG: where the robot begins to map the museum by itself, in the frame of its hazards and area; "
-      "its map, exhibits and tours are not used");
+  command
+      .add_option("--explore", explore,
+                  "X,Y,DEG: where the robot begins to map the museum by itself, in the frame of its hazards and area; "
+                  "its map, exhibits and tours are not used")
+      ->check(pose_option());
   command.add_flag("--setup", is_setup)->group("");  // how docent setup tells its modules
 }
 
@@ -113,6 +132,7 @@ Result<robot::RobotConfig> Deployment::load_config(const std::vector<std::string
       return tl::unexpected<Error>(whole.error());
   }
   if (auto known = config.check_sections(sections); !known) return tl::unexpected<Error>(known.error());
+  if (auto right = scanners_have_free_topics(config.body()); !right) return tl::unexpected<Error>(right.error());
   return config;
 }
 

@@ -144,7 +144,10 @@ int run(const Program& program, int argc, const char* const* argv) {
   app.formatter(std::make_shared<PlainHelp>());  // before the commands, which take it over
   add_commands(program, app);
   show_examples(program, app, "");
-  app.parse_complete_callback([&app] { refuse_shared_outputs(app); });  // before the command runs
+  app.parse_complete_callback([&app] {
+    refuse_odd_numbers(app);
+    refuse_shared_outputs(app);
+  });  // before the command runs
   const char* name = program.name.c_str();
   try {
     app.parse(argc, argv);

@@ -147,7 +147,8 @@ void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
   command->add_option("--out", options->out, "folder for map.yaml, map.pgm, a picture and report.json")
       ->check(output_folder())
       ->required();
-  command->add_option("--start", options->start, "X,Y,DEG where the robot begins; without: the museum's home");
+  command->add_option("--start", options->start, "X,Y,DEG where the robot begins; without: the museum's home")
+      ->check(pose_option());
   command
       ->add_option("--scenario", options->run.scenario,
                    "file of timed events, and of what is built or told otherwise than robot.yaml and --start say")
@@ -162,7 +163,8 @@ void add_explore_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->capture_default_str();
   command->add_option("--people", options->run.people, "so many persons instead of the crowd's density")
       ->check(CLI::Range(0, 10000));
-  command->add_option("--state", options->run.state, "folder of checkpoints; without: a temporary one");
+  command->add_option("--state", options->run.state, "folder of checkpoints; without: a temporary one")
+      ->check(kept_folder());
   command->add_option("--record", options->run.recording, "MCAP file of all messages and the truth")
       ->check(output_file());
   command->add_option("--event-log", options->run.event_log, "CSV file to write: touches, with times and places")

@@ -153,14 +153,16 @@ void add_simulate_command(CLI::App& app, std::shared_ptr<RobotMaker> robot) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--requests-per-hour", options->run.requests_per_hour, "wishes of simulated visitors");
   command->add_option("--scenario", options->run.scenario, "YAML file of timed events");
-  command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told");
+  command->add_option("--start", options->start, "X,Y,DEG in the map; without: anywhere, and the robot is not told")
+      ->check(pose_option());
   command->add_option("--mode", options->run.mode, "open, web, closed, or hours: what the museum's hours say")
       ->capture_default_str();
   command->add_option("--time-of-day", options->time_of_day, "HH:MM at which the run begins")->capture_default_str();
   command->add_option("--max-speed", options->run.max_speed, "[m/s] instead of the mode's speed limit")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.01, 10.0));
   command->add_option("--set", options->run.settings, "section.key=value over robot.yaml; may be repeated");
-  command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one");
+  command->add_option("--state", options->run.state, "folder of checkpoints and databases; without: a temporary one")
+      ->check(kept_folder());
   add_cache_options(*command, options->run.cache);
   command->add_flag("!--world-only", options->run.has_robot,
                     "no module of the robot runs: for recordings of sensors, with a scenario that steers");

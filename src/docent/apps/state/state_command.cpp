@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/telepresence/store/salvage/private_files.h"
@@ -160,7 +161,9 @@ void add_state_command(CLI::App& app) {
       "  docent state restore --from 20261129");
   const auto part = [&](const char* name, const char* meaning, void (*run)(const Options&)) {
     CLI::App& sub = *command.add_subcommand(name, meaning);
-    sub.add_option("--state", options->state, "folder of the robot's state, as for docent up")->capture_default_str();
+    sub.add_option("--state", options->state, "folder of the robot's state, as for docent up")
+        ->check(kept_folder())
+        ->capture_default_str();
     sub.callback([options, run] { run(*options); });
     return &sub;
   };

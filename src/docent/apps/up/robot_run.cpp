@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -190,6 +191,9 @@ void tell_reach(const Deployment& deployment, StatusDisplay& display) {
   display.log(LogLevel::info, "bus", in_words(reach));
   for (const auto& line : deployment.ros_lines())
     display.log(LogLevel::info, "bus", "for ROS 2 (" + line.implementation + "): " + line.line);
+  for (const std::string& note :
+       transport::environment_notes(reach, [](const char* name) { return std::getenv(name); }))
+    display.log(LogLevel::warning, "bus", note);
 }
 
 /// Before any module runs: two robots of one name would each obey the other's sensors and drive the other's base. One

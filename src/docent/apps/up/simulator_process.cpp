@@ -96,7 +96,8 @@ void SimulatorOptions::add_options(CLI::App& command) {
                   "Share of people who do not evade: children who run, backs turned, a phone in hand")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere");
+  command.add_option("--start", start, "Where the simulated robot wakes up: X,Y,DEG; without it somewhere")
+      ->check(pose_option());
   command.add_option(
       "--world", world,
       "What is simulated: folder of a museum, or a file simulation.yaml; without it the robot's own museum");

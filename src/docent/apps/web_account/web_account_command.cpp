@@ -10,6 +10,7 @@
 #include <iostream>
 #include <memory>
 
+#include "docent/apps/shared/arguments.h"
 #include "docent/apps/shared/command.h"
 #include "docent/apps/shared/deployment.h"
 #include "docent/telepresence/accounts/accounts.h"
@@ -99,7 +100,9 @@ void add_web_account_command(CLI::App& app) {
   command.require_subcommand(1);
   const auto part = [&](const char* name, const char* meaning, void (*run)(const Options&)) {
     CLI::App& sub = *command.add_subcommand(name, meaning);
-    sub.add_option("--state", options->state, "folder of the robot's state, as for docent up")->capture_default_str();
+    sub.add_option("--state", options->state, "folder of the robot's state, as for docent up")
+        ->check(kept_folder())
+        ->capture_default_str();
     sub.add_option("--database", options->database, "where several gateways share one: postgresql://…");
     if (std::string{name} != "list")
       sub.add_option("NAME", options->name, "of the account: a-z, 0-9, _ - .")->required();

@@ -26,5 +26,9 @@ struct Record {
 /// The records in a chunk, unpacked: plain, zstd or LZ4, of 256 MiB at most. Error: what is wrong with it.
 /// @param content  of the chunk's record
 [[nodiscard]] Result<std::vector<std::uint8_t>> unpack_chunk(std::span<const std::uint8_t> content);
+/// Of a chunk that the end of the file cuts: what stands before the cut, the last of its records seldom whole. Error:
+/// nothing of it can be read.
+/// @param content  of the chunk's record, as far as it goes
+[[nodiscard]] Result<std::vector<std::uint8_t>> unpack_cut_chunk(std::span<const std::uint8_t> content);
 
 }  // namespace docent::recording::mcap

@@ -55,6 +55,7 @@ struct Piece {
   std::uint64_t first_time = 0;
   std::size_t offset = 0;
   bool is_chunk = true;
+  bool is_cut = false;  ///< a chunk that the end of the file cuts
 };
 
 struct Schema {
@@ -186,6 +187,9 @@ void McapReader::State::walk() {
     if (record.is(Kind::data_end) || record.is(Kind::footer)) break;
     if (record.kind == 0) {
       complete = false;
+      const Bytes rest = all.subspan(at);
+      if (rest.size() > mcap::kRecordHead + sizeof(std::uint64_t) && rest[0] == static_cast<std::uint8_t>(Kind::chunk))
+        pieces.push_back({ByteReader{rest.subspan(mcap::kRecordHead)}.number<std::uint64_t>(), at, true, true});
       break;
     }
     if (record.is(Kind::schema)) learn_schema(record.content);
@@ -200,6 +204,7 @@ void McapReader::State::walk() {
 }
 
 Result<std::vector<std::uint8_t>> McapReader::State::unpack(const Piece& piece) const {
+  if (piece.is_cut) return mcap::unpack_cut_chunk(bytes().subspan(piece.offset + mcap::kRecordHead));
   const Record record = record_at(bytes(), piece.offset);
   if (!record.is(Kind::chunk)) return tl::unexpected<Error>(fault(piece.offset, "no chunk where the index has one"));
   auto records = mcap::unpack_chunk(record.content);
@@ -384,6 +389,7 @@ Result<void> McapReader::Reading::damaged(Error error) {
 
 Result<void> McapReader::Reading::read_chunk(const Piece& piece) {
   auto unpacked = state_.unpack(piece);
+  if (!unpacked && piece.is_cut) return {};  // is_complete says it
   if (!unpacked) return damaged(unpacked.error());
   held_ += unpacked->size();
   if (held_ > kMaxHeld) return tl::unexpected<Error>(state_.fault(piece.offset, "too many chunks of the same time"));
@@ -395,6 +401,7 @@ Result<void> McapReader::Reading::read_chunk(const Piece& piece) {
   for (std::size_t at = 0; at < chunk->size();) {
     const Record record = record_at(*chunk, at);
     bool good = record.kind != 0;
+    if (!good && piece.is_cut) break;
     if (record.is(Kind::schema)) state_.learn_schema(record.content);
     if (record.is(Kind::channel)) state_.learn_channel(record.content);
     if (record.is(Kind::message)) good = wait(record.content, chunk, piece.offset);

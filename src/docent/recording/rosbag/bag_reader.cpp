@@ -45,11 +45,12 @@ Result<void> read_mcap(const fs::path& path, const Handler& handler, std::vector
     const McapChannel& channel = message.channel;
     if (channel.encoding == "cdr" || channel.encoding.empty())
       return handler({channel.topic, channel.type, message.log_time, plain(message.data, unpacked)});
-    const ConvertedMessage converted =
-        channel.encoding == "ros1" ? converted_from_ros1(channel.type, message.data) : ConvertedMessage{nullptr, {}};
-    if (converted.type == nullptr && channel.encoding != "ros1") foreign[channel.topic] = channel.encoding;
-    if (converted.type == nullptr) return true;
-    const std::string type = converted.type;
+    if (channel.encoding != "ros1") {
+      foreign[channel.topic] = channel.encoding;
+      return true;
+    }
+    const ConvertedMessage converted = converted_from_ros1(channel.type, message.data);
+    const std::string type = converted.type != nullptr ? std::string{converted.type} : ros2_name_of(channel.type);
     return handler({channel.topic, type, message.log_time, converted.data});
   });
   if (!reader->is_complete()) notes.push_back(path.string() + ": ends early; what came before is used");
@@ -82,6 +83,8 @@ class Scratch {
 };
 
 Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std::vector<std::string>& notes) {
+  std::error_code code;
+  if (fs::is_regular_file(path, code) && fs::file_size(path, code) == 0) return fail(path.string() + ": is empty");
   if (is_ros1_bag(path)) return read_ros1_bag(path, handler, notes);
   if (begins_with(path, "\x28\xb5\x2f\xfd")) {
     const Scratch scratch;
@@ -92,7 +95,8 @@ Result<void> read_file_of_bag(const fs::path& path, const Handler& handler, std:
     if (!whole) notes.push_back(whole.error().message + ": what came before is used");
     return read_file_of_bag(unpacked, handler, notes);
   }
-  if (is_database(path) || (path.extension() == ".db3" && !is_mcap(path))) return read_rosbag2_database(path, handler);
+  if (is_database(path) || (path.extension() == ".db3" && !is_mcap(path)))
+    return read_rosbag2_database(path, handler, notes);
   return read_mcap(path, handler, notes);
 }
 

@@ -5,6 +5,8 @@
 #include <unistd.h>
 #include <zstd.h>
 
+#include <algorithm>
+
 #include "docent/base/files.h"
 #include "docent/recording/mcap/writer.h"
 #include "docent/recording/rosbag/bag_metadata.h"
@@ -140,6 +142,40 @@ TEST_F(Bags, ATornOrEmptyPartCostsThatPartAlone) {
   ASSERT_TRUE(write_file_atomically(folder_ / "b_0.db3", database.substr(0, database.size() / 2)));
   EXPECT_GE(read(folder_).size(), 10U) << "the MCAP part stays";
   EXPECT_FALSE(notes_.empty());
+}
+
+TEST_F(Bags, OfADatabaseThatIsCutOrDamagedWhatIsWholeIsRead) {
+  write_database(folder_ / "b.db3", 0, 2000, false);
+  const std::string whole = *read_file(folder_ / "b.db3");
+  for (const double share : {0.2, 0.6, 0.61, 0.95}) {
+    ASSERT_TRUE(write_file_atomically(folder_ / "b.db3",
+                                      whole.substr(0, static_cast<std::size_t>(share * double(whole.size())))));
+    const std::vector<int> found = read(folder_ / "b.db3");
+    EXPECT_GT(found.size(), 2000 * share - 60) << share;
+    EXPECT_EQ(found, numbers(0, static_cast<int>(found.size())));
+    ASSERT_EQ(notes_.size(), 1U);
+    EXPECT_NE(notes_[0].find("ends early ("), std::string::npos) << notes_[0];
+    EXPECT_NE(notes_[0].find("its " + std::to_string(found.size()) + " messages that are whole"), std::string::npos)
+        << notes_[0];
+  }
+  std::string damaged = whole;  // a page in the middle
+  std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2 / 4096 * 4096), 4096, '\xff');
+  ASSERT_TRUE(write_file_atomically(folder_ / "b.db3", damaged));
+  std::vector<int> found = read(folder_ / "b.db3");
+  EXPECT_GT(found.size(), 1950U);
+  EXPECT_LT(found.size(), 2000U);
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(std::unique(found.begin(), found.end()), found.end()) << "each once";
+  EXPECT_EQ(found.back(), 1999) << "behind it, too";
+  ASSERT_EQ(notes_.size(), 1U);
+  EXPECT_NE(notes_[0].find("is damaged"), std::string::npos) << notes_[0];
+  for (const std::size_t size : {std::size_t{60}, std::size_t{1000}, std::size_t{4096}}) {
+    ASSERT_TRUE(write_file_atomically(folder_ / "b.db3", whole.substr(0, size)));
+    const auto done = read_bag(
+        folder_ / "b.db3", [](const Rosbag2Message&) { return true; }, notes_);
+    ASSERT_FALSE(done) << size;
+    EXPECT_EQ(done.error().message.rfind((folder_ / "b.db3: ").string(), 0), 0U) << done.error().message;
+  }
 }
 
 TEST_F(Bags, WhatIsNoRecordingIsAnError) {

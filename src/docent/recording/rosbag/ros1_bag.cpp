@@ -66,11 +66,15 @@ class Ros1Bag {
       return fail(name_ + ": a ROS 1 bag of another format than 2.0: `rosbag migrate` or `rosbag fix` makes one of it");
     std::vector<std::uint8_t> head, data;
     while (wants_more_ && file_.peek() != std::char_traits<char>::eof()) {
-      if (!read_part(head) || !read_part(data)) {
-        notes_.push_back(name_ + ": ends early; what came before is used");
+      const bool has_head = read_part(head);
+      const bool is_cut = !has_head || !read_part(data);
+      if (is_cut) notes_.push_back(name_ + ": ends early; what came before is used");
+      if (!has_head) break;
+      const auto fields = fields_of(head);
+      if (is_cut) {
+        if (fields && number_of<std::uint8_t>(*fields, "op") == kChunk) take_cut_chunk(*fields, data);
         break;
       }
-      const auto fields = fields_of(head);
       if (!fields) {
         notes_.push_back(name_ + ": a broken record; what came before is used");
         break;
@@ -88,11 +92,24 @@ class Ros1Bag {
   }
 
  private:
+  /// False where the file ends first; then what is there.
   bool read_part(std::vector<std::uint8_t>& bytes) {
     std::uint32_t size = 0;
+    bytes.clear();
     if (!file_.read(reinterpret_cast<char*>(&size), sizeof size) || size > kMostBytes) return false;
     bytes.resize(size);
-    return static_cast<bool>(file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)));
+    const bool is_whole{file_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))};
+    if (!is_whole) bytes.resize(static_cast<std::size_t>(file_.gcount()));
+    return is_whole;
+  }
+
+  void take_cut_chunk(const Fields& fields, const std::vector<std::uint8_t>& packed) {
+    const std::string compression = text_of(fields, "compression");
+    const auto size = number_of<std::uint32_t>(fields, "size");
+    is_damage_said_ = true;  // that the file ends early is
+    if (compression == "none" || compression.empty()) take_records(packed);
+    if (compression == "bz2") take_records(unpack_cut_bz2(packed, size));
+    if (compression == "lz4") take_records(mcap::unpack_cut_lz4(packed, size));
   }
 
   void take_chunk(const Fields& fields, const std::vector<std::uint8_t>& packed) {
@@ -137,11 +154,11 @@ class Ros1Bag {
     const auto connection = connections_.find(id);
     if (connection == connections_.end()) return;
     const ConvertedMessage message = converted_from_ros1(connection->second.type, data);
-    if (message.type == nullptr) return;
     const auto time = number_of<std::uint64_t>(fields, "time");  // seconds, then nanoseconds
     const auto seconds = static_cast<std::int64_t>(time & 0xffffffffU),
                nanoseconds = static_cast<std::int64_t>(time >> 32U);
-    const std::string type = message.type;
+    const std::string type =
+        message.type != nullptr ? std::string{message.type} : ros2_name_of(connection->second.type);
     wants_more_ = handler_({connection->second.topic, type, Time{seconds * 1'000'000'000 + nanoseconds}, message.data});
   }
 

@@ -21,4 +21,10 @@ ConvertedMessage converted_from_ros1(const std::string& type, std::span<const st
   return {nullptr, {}};
 }
 
+std::string ros2_name_of(const std::string& type) {
+  const std::size_t slash = type.find('/');
+  const bool is_of_ros1 = slash != std::string::npos && type.find('/', slash + 1) == std::string::npos;
+  return is_of_ros1 ? type.substr(0, slash) + "/msg" + type.substr(slash) : type;
+}
+
 }  // namespace docent::recording

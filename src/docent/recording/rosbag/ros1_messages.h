@@ -90,4 +90,8 @@ struct ConvertedMessage {
 /// @param type  "sensor_msgs/LaserScan", "nav_msgs/Odometry", "tf/tfMessage", "tf2_msgs/TFMessage", "sensor_msgs/Range"
 [[nodiscard]] ConvertedMessage converted_from_ros1(const std::string& type, std::span<const std::uint8_t> bytes);
 
+/// What ROS 2 calls a type of ROS 1: "sensor_msgs/msg/PointCloud2" for "sensor_msgs/PointCloud2". One of
+/// ROS 2 stays.
+[[nodiscard]] std::string ros2_name_of(const std::string& type);
+
 }  // namespace docent::recording

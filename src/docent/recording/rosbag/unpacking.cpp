@@ -3,6 +3,7 @@
 #include <bzlib.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
@@ -61,6 +62,28 @@ Result<std::vector<std::uint8_t>> unpack_bz2(std::span<const std::uint8_t> packe
                                                 const_cast<char*>(reinterpret_cast<const char*>(packed.data())),
                                                 static_cast<unsigned int>(packed.size()), 0, 0);
   if (status != BZ_OK || got != size) return fail("damaged bzip2 data");
+  return bytes;
+}
+
+std::vector<std::uint8_t> unpack_cut_bz2(std::span<const std::uint8_t> packed, std::size_t size) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20U;  // the size may be a lie: memory is taken as it fills
+  bz_stream stream{};
+  std::vector<std::uint8_t> bytes;
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return bytes;
+  stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(packed.data()));
+  stream.avail_in = static_cast<unsigned int>(packed.size());
+  size = std::min(size, kMost);
+  for (bool goes_on = true; goes_on && bytes.size() < size;) {
+    const std::size_t at = bytes.size();
+    bytes.resize(at + std::min(kPiece, size - at));
+    stream.next_out = reinterpret_cast<char*>(bytes.data() + at);
+    stream.avail_out = static_cast<unsigned int>(bytes.size() - at);
+    const int status = BZ2_bzDecompress(&stream);
+    const std::size_t got = bytes.size() - at - stream.avail_out;
+    bytes.resize(at + got);
+    goes_on = status == BZ_OK && got > 0;
+  }
+  BZ2_bzDecompressEnd(&stream);
   return bytes;
 }
 

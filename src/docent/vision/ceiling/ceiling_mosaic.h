@@ -16,6 +16,7 @@ struct CeilingMosaic {
   std::vector<double> heights;     ///< [m] above the floor, of each part; fewer than kUnknown
   std::vector<std::uint8_t> part;  ///< [rows * columns] which of `heights`, or kUnknown
   std::vector<float> brightness;   ///< [rows * columns] 0 .. 1
+  bool is_cut_short = false;       ///< whoever made it ended early: heights and places are not yet as good as they get
 };
 
 /// Whether no lower part hides a place of the ceiling from a lens. O(parts).

@@ -35,6 +35,7 @@ struct CeilingYaml {
   double resolution = 0.0;
   std::vector<double> origin, heights, brightness;
   std::string digest;
+  bool cut_short = false;
   template <class V>
   void visit(V& v) {
     v.required("picture", picture);
@@ -44,6 +45,7 @@ struct CeilingYaml {
     v.required("heights", heights);
     v.required("brightness", brightness);
     v("digest", digest);
+    v("cut_short", cut_short);
   }
 };
 
@@ -180,6 +182,7 @@ Result<void> write_ceiling(const fs::path& path, const CeilingMosaic& mosaic) {
   yaml << YAML::Key << "heights" << YAML::Value << YAML::Flow << mosaic.heights;
   yaml << YAML::Key << "brightness" << YAML::Value << YAML::Flow << YAML::BeginSeq << low << high << YAML::EndSeq;
   yaml << YAML::Key << "digest" << YAML::Value << YAML::DoubleQuoted << digest_of(*picture_png, *parts_png);
+  if (mosaic.is_cut_short) yaml << YAML::Key << "cut_short" << YAML::Value << true;
   yaml << YAML::EndMap;
   if (auto written = write_file_atomically(picture, *picture_png); !written) return written;
   if (auto written = write_file_atomically(part, *parts_png); !written) return written;
@@ -211,6 +214,7 @@ Result<CeilingMosaic> read_ceiling(const fs::path& path) {
   CeilingMosaic mosaic;
   mosaic.frame = {static_cast<int>(width), static_cast<int>(height), yaml.resolution, {yaml.origin[0], yaml.origin[1]}};
   mosaic.heights = yaml.heights;
+  mosaic.is_cut_short = yaml.cut_short;
   mosaic.part.resize(mosaic.frame.size());
   mosaic.brightness.resize(mosaic.frame.size());
   std::uint32_t odd = 0;

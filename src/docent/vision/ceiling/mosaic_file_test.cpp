@@ -62,6 +62,19 @@ TEST_F(MosaicFileTest, WhatIsWrittenIsRead) {
   for (std::size_t i = 0; i < mosaic.brightness.size(); ++i)
     EXPECT_NEAR(read->brightness[i], mosaic.brightness[i], 2e-5F) << i;
   EXPECT_TRUE(write_ceiling(yaml_, *read)) << "over itself";
+  EXPECT_EQ(read_file(yaml_)->find("cut_short"), std::string::npos);
+}
+
+TEST_F(MosaicFileTest, ThatItWasCutShortStandsInTheFile) {
+  CeilingMosaic mosaic = small_mosaic();
+  mosaic.is_cut_short = true;
+  ASSERT_TRUE(write_ceiling(yaml_, mosaic));
+  EXPECT_NE(read_file(yaml_)->find("cut_short: true"), std::string::npos);
+  const auto read = read_ceiling(yaml_);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(read->is_cut_short);
+  change("cut_short", "cut_short: false");
+  EXPECT_FALSE(read_ceiling(yaml_)->is_cut_short);
 }
 
 TEST_F(MosaicFileTest, TheImagesFirstRowIsTheTop) {
