@@ -5,10 +5,10 @@ import re
 import subprocess
 from pathlib import Path
 
-from evaluation import ceilings, eyes_ceiling, eyes_packed, eyes_sight
+from evaluation import ceilings, eyes_ceiling, eyes_dock, eyes_packed, eyes_sight
 from evaluation.tables import Verdict, print_table
 
-PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "things", "stairs", "ceiling", "packed"]
+PARTS = ["objects", "real-ceiling", "mosaic", "rgbd", "docking", "dock", "things", "stairs", "ceiling", "packed"]
 BESIDE_OPENCV = "tests/objects_beside_opencv/docent_objects_test"
 BESIDE_DEPTH = "tests/floor_beside_depth/docent_floor_test"
 BY_TAG = "tests/docking_by_tag/docent_docking_test"
@@ -109,6 +109,8 @@ def protocol(build, root, options, simulations):
         rgbd(build, data, verdict)
     if options.part in (None, "docking"):
         docking(build, data, verdict)
+    if options.part in (None, "dock"):
+        eyes_dock.part(simulations, options, verdict)
     if options.part in (None, "things"):
         eyes_sight.part_things(simulations, options, verdict)
     if options.part in (None, "stairs"):

@@ -4,6 +4,7 @@
 
 #include "docent/apps/config/config_command.h"
 #include "docent/apps/doctor/doctor_command.h"
+#include "docent/apps/eyes/calibrate_camera_command.h"
 #include "docent/apps/eyes/map_ceiling_command.h"
 #include "docent/apps/eyes/objects_command.h"
 #include "docent/apps/gateway/gateway_command.h"
@@ -62,6 +63,7 @@ std::map<std::string, std::string> examples() {
           {"replay", "replay run.mcap --museum museums/bonn --modules localize"},
           {"learn-objects", "learn-objects pictures --out objects.json"},
           {"map-ceiling", "map-ceiling drive --out museums/bonn/ceiling.yaml --pictures stages"},
+          {"calibrate-camera", "calibrate-camera boards --board 9x6 --square 0.025 --out lens.yaml"},
           {"listen", "listen said.wav --museum museums/bonn"},
           {"name-objects", "name-objects --book objects.json photo.jpg"},
           {"config", "config avoid > robot.yaml"},
@@ -92,7 +94,8 @@ int main(int argc, char** argv) {
                    {localize_command::add_localize_command, localize_command::add_map_command,
                     localize_command::add_calibrate_command, with_robot(replay_command::add_replay_command, whole),
                     objects_command::add_learn_objects_command, objects_command::add_name_objects_command,
-                    map_ceiling_command::add_map_ceiling_command, listen_command::add_listen_command}},
+                    map_ceiling_command::add_map_ceiling_command,
+                    calibrate_camera_command::add_calibrate_camera_command, listen_command::add_listen_command}},
                   {"Tune", {config_command::add_config_command}},
                   {"Put it into a robot of your own",
                    {ros::add_ros_command, with_robot(up_command::add_run_command, whole)}}},

@@ -30,6 +30,14 @@ void turn_round(std::vector<std::uint8_t>& bytes, std::uint32_t pixel_bytes) {
                      bytes.begin() + static_cast<std::ptrdiff_t>((pixels - 1 - i) * pixel_bytes));
 }
 
+std::vector<std::uint8_t> rgb_of(const pictures::Image& image) {
+  std::vector<std::uint8_t> rgb;
+  const auto bytes = image.bytes();
+  rgb.reserve(bytes.size() / 4 * 3);
+  for (std::size_t i = 0; i < bytes.size(); i += 4) rgb.insert(rgb.end(), {bytes[i], bytes[i + 1], bytes[i + 2]});
+  return rgb;
+}
+
 }  // namespace
 
 EyeDrivers::EyeDrivers(transport::Bus& bus, const EyeOptions& options, const Rng& rng)
@@ -37,7 +45,8 @@ EyeDrivers::EyeDrivers(transport::Bus& bus, const EyeOptions& options, const Rng
       eyes_{with_seed(options.eyes, rng)},
       rng_{rng.stream("noise")},
       up_{eye_of(bus, topics::kCeilingImage, topics::kCeilingInfo, eyes_.told().up, "ceiling_camera")},
-      depth_{eye_of(bus, topics::kDepthImage, topics::kDepthInfo, eyes_.told().depth, "depth_camera")} {}
+      depth_{eye_of(bus, topics::kDepthImage, topics::kDepthInfo, eyes_.told().depth, "depth_camera")},
+      front_{eye_of(bus, topics::kFrontImage, topics::kFrontInfo, eyes_.told().front, "front_camera")} {}
 
 EyeDrivers::Eye EyeDrivers::eye_of(transport::Bus& bus, const Topic<sensor_msgs::Image>& images,
                                    const Topic<sensor_msgs::CameraInfo>& infos, const simulator::Eye& told,
@@ -63,9 +72,21 @@ EyeDrivers::Eye EyeDrivers::eye_of(transport::Bus& bus, const Topic<sensor_msgs:
   return {bus.publisher(images), bus.publisher(infos), info, std::nullopt};
 }
 
+EyeDrivers::Eye& EyeDrivers::eye_of(EyeFault::Eye eye) {
+  switch (eye) {
+    case EyeFault::Eye::depth:
+      return depth_;
+    case EyeFault::Eye::front:
+      return front_;
+    case EyeFault::Eye::ceiling:
+      break;
+  }
+  return up_;
+}
+
 void EyeDrivers::set_fault(const EyeFault& fault, Time now) {
   constexpr double kForEver = 1e9;  // [s]
-  Eye& eye = fault.eye == EyeFault::Eye::depth ? depth_ : up_;
+  Eye& eye = eye_of(fault.eye);
   eye.fault = fault;
   eye.fault_ends = now + seconds(fault.duration > 0.0 ? fault.duration : kForEver);
 }
@@ -76,7 +97,8 @@ bool EyeDrivers::has(const Eye& eye, EyeFault::Kind kind, Time now) {
 
 bool EyeDrivers::is_due(std::uint64_t step) const {
   return (options_.up && step % period_of(options_.up_rate) == 0) ||
-         (options_.depth && step % period_of(options_.depth_rate) == 0);
+         (options_.depth && step % period_of(options_.depth_rate) == 0) ||
+         (options_.front && step % period_of(options_.front_rate) == 0);
 }
 
 void EyeDrivers::look(const Renderer& renderer, Time now, std::uint64_t step, const Pose2& world_from_base) {
@@ -91,9 +113,16 @@ void EyeDrivers::look(const Renderer& renderer, Time now, std::uint64_t step, co
   last_look_ = now;
   const std::string moment = std::to_string(step);
   using Kind = EyeFault::Kind;
+  const auto has_none = [&](const Eye& eye) { return has(eye, Kind::lamps_off, now); };
+  if (has_none(up_) || has_none(depth_) || has_none(front_)) glimpse.lighting.circuits = {};
+  if (options_.front && step % period_of(options_.front_rate) == 0) {
+    Glimpse ahead = glimpse;
+    if (has(front_, Kind::exposure, now)) ahead.gain = front_.fault->gain;
+    Rng noise = rng_.stream("front " + moment);
+    keep(front_, now, rgb_of(eyes_.look_ahead(renderer, ahead, noise)), "rgb8", 3);
+  }
   if (options_.up && step % period_of(options_.up_rate) == 0) {
     if (has(up_, Kind::exposure, now)) glimpse.gain = up_.fault->gain;
-    if (has(up_, Kind::lamps_off, now) || has(depth_, Kind::lamps_off, now)) glimpse.lighting.circuits = {};
     Rng noise = rng_.stream("up " + moment);
     keep(up_, now, eyes_.look_up(renderer, glimpse, noise), "mono8", 1);
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "docent/base/random.h"
-#include "docent/messages/topics.h"
+#include "docent/messages/dock_topics.h"
 #include "docent/simulator/scenario/eye_event.h"
 #include "docent/simulator/sensing/camera/eyes/robot_eyes.h"
 #include "docent/transport/bus.h"
@@ -17,8 +17,10 @@ namespace docent::simulator {
 struct EyeOptions {
   bool up = false;          ///< one that looks at the ceiling
   bool depth = false;       ///< one that measures how far the floor ahead is
+  bool front = false;       ///< one that looks ahead, in colours
   double up_rate = 2.5;     ///< [Hz], at most 10
   double depth_rate = 5.0;  ///< [Hz], at most 10
+  double front_rate = 4.0;  ///< [Hz], at most 10
   RobotEyesParams eyes{};   ///< what they are like; their seed comes of the run
 };
 
@@ -52,6 +54,7 @@ class EyeDrivers {
     sensor_msgs::Image image;
   };
   [[nodiscard]] static bool has(const Eye& eye, EyeFault::Kind kind, Time now);
+  [[nodiscard]] Eye& eye_of(EyeFault::Eye eye);
   [[nodiscard]] static Eye eye_of(transport::Bus& bus, const Topic<sensor_msgs::Image>& images,
                                   const Topic<sensor_msgs::CameraInfo>& infos, const simulator::Eye& told,
                                   const char* frame);
@@ -60,7 +63,7 @@ class EyeDrivers {
   EyeOptions options_;
   RobotEyes eyes_;
   Rng rng_;
-  Eye up_, depth_;
+  Eye up_, depth_, front_;
   std::deque<Waiting> waiting_;
   std::optional<Pose2> last_pose_;
   Time last_look_{};

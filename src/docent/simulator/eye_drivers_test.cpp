@@ -80,5 +80,20 @@ TEST(EyeDrivers, HaveFaults) {
   EXPECT_NEAR(*std::max_element(seen.ages.begin(), seen.ages.end()), 0.6, 0.02);
 }
 
+TEST(EyeDrivers, AFrontCameraSendsColoursAndFails) {
+  SimulationOptions made = with_eyes("events: [{at: 2, eye: {eye: front, kind: gone}}]");
+  made.cameras->eyes.up = made.cameras->eyes.depth = false;
+  made.cameras->eyes.front = true;
+  made.cameras->eyes.eyes.rig.front_times = 1.5;
+  Bench bench{std::move(made)};
+  std::vector<sensor_msgs::Image> seen;
+  bench.robot_bus->subscribe<sensor_msgs::Image>(topics::kFrontImage, [&](const auto& m) { seen.push_back(m); });
+  bench.run(4.0);
+  ASSERT_NEAR(static_cast<double>(seen.size()), 8.0, 1.0);
+  EXPECT_EQ(seen.front().encoding, "rgb8");
+  EXPECT_EQ(seen.front().width, 120U);
+  EXPECT_EQ(seen.front().data.size(), 3U * 120 * 90);
+}
+
 }  // namespace
 }  // namespace docent::simulator::eye_drivers_test

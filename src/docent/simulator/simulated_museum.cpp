@@ -165,8 +165,10 @@ void SimulatedMuseum::Impl::step() {
 
 void SimulatedMuseum::Impl::charge() {
   if (charger_fault_ && run_seconds() >= charger_fault_until_) charger_fault_.reset();
-  const bool at_charger = options_.charger && distance(*options_.charger, body_.pose().position()) < kChargerReach &&
-                          std::abs(body_.linear()) < 0.01;
+  const bool is_in_reach = options_.contacts  ? options_.contacts->reach(body_.pose())
+                           : options_.charger ? distance(*options_.charger, body_.pose().position()) < kChargerReach
+                                              : false;
+  const bool at_charger = is_in_reach && std::abs(body_.linear()) < 0.01;
   battery_.step(kWorldStep, body_.linear(), at_charger && !charger_fault_);
   const bool claims = at_charger && charger_fault_ == ChargerFault::Kind::claims;
   battery_.say(has_mute_battery_ ? Battery::Word::nothing : claims ? Battery::Word::charges : Battery::Word::truth);

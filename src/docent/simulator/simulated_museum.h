@@ -12,6 +12,7 @@
 #include "docent/simulator/crowd/crowd_params.h"
 #include "docent/simulator/hardware.h"
 #include "docent/simulator/scenario/scenario.h"
+#include "docent/simulator/world/charger_contacts.h"
 #include "docent/simulator/world/world.h"
 #include "docent/transport/bus.h"
 
@@ -24,12 +25,13 @@ struct SimulationOptions {
   std::string crowd = "busy";              ///< empty, quiet, busy, packed (architecture 10.3)
   std::optional<std::size_t> crowd_count;  ///< instead of the level's density; recorded people are among them
   CrowdParams crowd_params;
-  std::optional<Bodies> bodies;          ///< instead of what crowd_params says
-  std::optional<double> heedless;        ///< 0..1 likewise: share of people who do not evade
-  std::optional<Pose2> start;            ///< world_from_base; without: random, free, inside the operating area
-  std::optional<Point2> charger;         ///< [m]; standing within 0.4 m of it charges the battery
-  double battery = 1.0;                  ///< 0..1 at the start
-  std::optional<CameraOptions> cameras;  ///< without: none is simulated, which costs nothing
+  std::optional<Bodies> bodies;             ///< instead of what crowd_params says
+  std::optional<double> heedless;           ///< 0..1 likewise: share of people who do not evade
+  std::optional<Pose2> start;               ///< world_from_base; without: random, free, inside the operating area
+  std::optional<Point2> charger;            ///< [m]; standing within 0.4 m of it charges the battery
+  std::optional<ChargerContacts> contacts;  ///< instead: what of the charger a base must meet
+  double battery = 1.0;                     ///< 0..1 at the start
+  std::optional<CameraOptions> cameras;     ///< without: none is simulated, which costs nothing
   Scenario scenario;
   /// Does what the museum cannot do, when its time has come: the application's part of the scenario.
   std::function<void(const std::variant<Kill, PoseError, SecondMode>&)> application;

@@ -101,12 +101,15 @@ class Avoider {
   void set_target(Time now, Time stamp, AvoiderTarget target);  ///< where to go from now on
   /// An operator steers: as long as their word is fresh, no target counts. What must not be touched stays so.
   void steer_by_hand(Time now, const HandSteering& wish) { hand_ = {wish, now}; }
+  /// A robot that docks says which velocity it wants: as long as its word is fresh, no target counts. It is checked as
+  /// a local planner's; slow enough, the robot may come nearer to things, but touches none.
+  void dock_with(Time now, const Velocity& wish) { dock_.want(now, wish); }
   /// The stop button.
   void stop_by_hand(bool is_stopped) { is_stopped_ = is_stopped; }
   void set_max_speed(double max_speed) { max_speed_ = max_speed; }  ///< [m/s] no faster than that
 
   /// True when another laser's sweep is due by its period within `soon` [s]: a choice had better wait for it.
-  [[nodiscard]] bool awaits_sweep(Time now, double soon) const;
+  [[nodiscard]] bool awaits_sweep(Time now, double soon) const { return inputs_.await_sweep(now, soon); }
 
   /// One selection, with people where they are now; what was chosen is checked as by `reflex` before it is given. To be
   /// called when the lasers have seen anew, and every `window.cycle` when they have not. The command counts as given at
@@ -153,10 +156,16 @@ class Avoider {
                                             AvoiderDecision decision);
   /// The target's speed at its end, and what is known; nullopt when it is there.
   [[nodiscard]] std::optional<SpeedCap> cap_along_path(Time now, const BaseState& start, double remaining) const;
+  /// As the docking robot wants, where that is safe.
+  [[nodiscard]] AvoiderDecision follow_dock(Time now, const BaseState& start, std::span<const Obstacle> obstacles,
+                                            AvoiderDecision decision);
+  /// What the base may do of a plan. @param nearer  [m] than the margins it may come to things
+  [[nodiscard]] AvoiderDecision checked(const LocalTask& task, LocalPlan plan, double nearer,
+                                        AvoiderDecision decision) const;
   /// The command as near as the base can come to it, and as fast as is allowed; standing where it is no number.
   [[nodiscard]] Velocity within_limits(const Velocity& command, const LocalTask& task) const;
   /// The base can keep to it until the watchdog bites, or the next sweep, and brake then.
-  [[nodiscard]] bool may_keep_to(const Velocity& command, const LocalTask& task) const;
+  [[nodiscard]] bool may_keep_to(const Velocity& command, const LocalTask& task, double nearer) const;
   /// What the hand says; nullopt: nothing, or nothing new.
   [[nodiscard]] const HandSteering* hand(Time now) const;
   [[nodiscard]] std::optional<Steering> steer_as_hand(Time now, const HandSteering& wish,
@@ -199,6 +208,7 @@ class Avoider {
     Time said;
   };
   std::optional<Hand> hand_;
+  DockDrive dock_;
   bool is_stopped_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "docent/modules/eyes/dock_params.h"
 #include "docent/modules/eyes/eye_places.h"
 
 namespace docent::apps {
@@ -54,6 +55,12 @@ Result<simulator::EyeOptions> simulated_eyes(const robot::RobotConfig& config) {
   if (!ceiling) return tl::unexpected<Error>(ceiling.error());
   options.up = ceiling->enabled;
   options.eyes.rig.up_mount = mount_of(ceiling->place);
+  const auto dock = config.section<modules::DockParams>("dock");
+  if (!dock) return tl::unexpected<Error>(dock.error());
+  options.front = dock->enabled;
+  options.eyes.rig.front_mount = mount_of(dock->place);
+  constexpr double kFrontTimes = 1.5;  // 480 pixels across: the tag is seen 1.5 m away
+  options.eyes.rig.front_times = kFrontTimes;
   options.depth = sight->enabled;
   options.eyes.rig.depth_mount = mount_of(sight->place);
   return options;

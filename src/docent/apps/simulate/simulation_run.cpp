@@ -167,9 +167,12 @@ class SimulationRun::Parts {
     auto eyes = simulated_eyes(config_);
     if (!eyes) return tl::unexpected<Error>(eyes.error());
     const bool shows = options_.hosts_web || !options_.camera_pictures.empty();
-    if (shows || eyes->up || eyes->depth)
+    if (shows || eyes->up || eyes->depth || eyes->front)
       options.cameras = simulator::CameraOptions{.for_people = shows, .eyes = *eyes};
     if (museum_.charger) options.charger = museum_.charger->position();
+    auto contacts = simulator::load_contacts(*museum_.simulation_path);
+    if (!contacts) return tl::unexpected<Error>(contacts.error());
+    options.contacts = std::move(*contacts);
     options.run_info.museum = museum_.folder.filename().string();
     options.run_info.mode = options_.mode;
     options.run_info.config_hash = config_.hash();

@@ -10,7 +10,6 @@
 
 namespace docent::collision_avoidance {
 namespace {
-
 constexpr double kRounding = 1e-9;  // [m/s], [rad/s]
 
 motion_models::UnbrokenOdometryParams of_base(const BaseLimits& limits, motion_models::UnbrokenOdometryParams params) {
@@ -254,20 +253,19 @@ AvoiderDecision Avoider::stand(Time now, AvoiderDecision decision, std::string r
   return finish(now, std::move(decision));
 }
 
-bool Avoider::awaits_sweep(Time now, double soon) const { return inputs_.await_sweep(now, soon); }
-
 std::optional<std::string> Avoider::reason_to_stand(Time now) const {
   if (auto why = fault(now); !why.empty()) return why;
   if (is_stopped_) return to_text(ReasonWord::stopped_by_hand);
+  std::optional<std::string> touched;
+  if (is_touched(now, contact_.stands_for())) touched = to_text(ReasonWord::touched);
   if (const HandSteering* wish = hand(now)) {
     const bool is_dead = now - hand_->said > seconds(params_.hand.watchdog) || !wish->is_pressed;
-    if (is_dead) return to_text(ReasonWord::steered_by_hand);
-    return is_touched(now, contact_.stands_for()) ? std::optional<std::string>{to_text(ReasonWord::touched)}
-                                                  : std::nullopt;
+    return is_dead ? to_text(ReasonWord::steered_by_hand) : touched;
   }
+  if (dock_.wish(now) != nullptr) return touched ? touched : carried_off_.forbids_driving(now);
   if (!target_ || target_->mode == AvoiderTarget::Mode::stop) return "";
   if (target_freshness_.age(now) > params_.target_timeout) return "no fresh target";
-  if (is_touched(now, contact_.stands_for())) return to_text(ReasonWord::touched);
+  if (touched) return touched;
   return target_->mode == AvoiderTarget::Mode::drive ? carried_off_.forbids_driving(now) : std::nullopt;
 }
 
@@ -332,9 +330,25 @@ AvoiderDecision Avoider::follow_path(Time now, const BaseState& start, std::span
 
   const LocalTask task{start.velocity, command_,      start.odom_from_base, obstacles,
                        path,           ahead.in_base, max_speed_,           std::move(*cap)};
-  LocalPlan plan = planner_->plan(task);
+  decision = checked(task, planner_->plan(task), 0.0, std::move(decision));
+  judge_blocking(now, task.carrot, start.odom_from_base, obstacles, decision);
+  return finish(now, std::move(decision));
+}
+
+AvoiderDecision Avoider::follow_dock(Time now, const BaseState& start, std::span<const Obstacle> obstacles,
+                                     AvoiderDecision decision) {
+  SpeedCap cap{top_speed(), {}};
+  cap_by_knowledge(now, cap);
+  const LocalTask task{start.velocity, command_, start.odom_from_base, obstacles, {}, {}, max_speed_, std::move(cap)};
+  LocalPlan plan{task};
+  plan.command = *dock_.wish(now);
+  planner_->forget();
+  return finish(now, checked(task, std::move(plan), dock_.nearer(now, *dock_.wish(now)), std::move(decision)));
+}
+
+AvoiderDecision Avoider::checked(const LocalTask& task, LocalPlan plan, double nearer, AvoiderDecision decision) const {
   decision.command = within_limits(plan.command, task);
-  if (!may_keep_to(decision.command, task)) {
+  if (!may_keep_to(decision.command, task, nearer)) {
     decision.command = {};
     plan.is_braking = true;
   }
@@ -342,8 +356,7 @@ AvoiderDecision Avoider::follow_path(Time now, const BaseState& start, std::span
   decision.speed_cap = std::min(plan.cap.speed, task.cap.speed);
   decision.reason = plan.is_braking ? to_text(ReasonWord::braking) : std::move(plan.cap.reason);
   decision.state = AvoiderDecision::State::driving;
-  judge_blocking(now, task.carrot, start.odom_from_base, obstacles, decision);
-  return finish(now, std::move(decision));
+  return decision;
 }
 
 Velocity Avoider::within_limits(const Velocity& command, const LocalTask& task) const {
@@ -362,11 +375,11 @@ Velocity Avoider::within_limits(const Velocity& command, const LocalTask& task) 
   return result;
 }
 
-bool Avoider::may_keep_to(const Velocity& command, const LocalTask& task) const {
+bool Avoider::may_keep_to(const Velocity& command, const LocalTask& task, double nearer) const {
   const bool stays = command.linear == 0.0;
   if (stays && (limits_.outline.empty() || command.angular == 0.0)) return true;  // a disc turns in its own place
   const auto may_last = [&](double duration) {
-    return can_brake_in_time(task.velocity, command, duration, task.obstacles, limits_, 0.0);
+    return can_brake_in_time(task.velocity, command, duration, task.obstacles, limits_, nearer);
   };
   return may_last(limits_.hold()) && (stays || may_last(params_.window.next_check));
 }
@@ -385,6 +398,7 @@ AvoiderDecision Avoider::decide(Time now) {
 
   decision.speed_cap = top_speed();
   const HandSteering* wish = hand(now);
+  if (wish == nullptr && dock_.wish(now) != nullptr) return follow_dock(now, start, obstacles, std::move(decision));
   if (wish == nullptr && target_->mode == AvoiderTarget::Mode::drive)
     return follow_path(now, start, obstacles, std::move(decision));
   const auto steering = wish != nullptr ? steer_as_hand(now, *wish, decision) : turn_to_heading(start, decision);
@@ -416,7 +430,8 @@ std::optional<AvoiderDecision> Avoider::reflex(Time now) {
   const auto obstacles = obstacles_from(start.odom_from_base, now + seconds(limits_.latency));
   tell_nearest(obstacles, decision);
   const auto is_safe = [&](const Velocity& command) {
-    return can_brake_in_time(start.velocity, command, reflex.until_next_sweep, obstacles, limits_, reflex.slack);
+    const double slack = std::max(reflex.slack, dock_.nearer(now, command));
+    return can_brake_in_time(start.velocity, command, reflex.until_next_sweep, obstacles, limits_, slack);
   };
   if (is_safe(command_)) {
     const auto slowed = caution_.slowed_for_people(command_, obstacles);

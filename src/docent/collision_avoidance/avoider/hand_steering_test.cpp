@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "docent/collision_avoidance/avoider/avoider.h"
@@ -121,6 +122,34 @@ TEST(HandSteering, TheStopButtonStopsWhateverIsWanted) {
   world.avoider.stop_by_hand(false);
   world.run(8.0);
   EXPECT_GT(world.driven, driven + 0.5);
+}
+
+TEST(DockDrive, ComesUpToAThingAndTouchesNothing) {
+  Rehearsal world;
+  world.box(-3, -3, 1.5, 3);  // a wall ahead
+  world.run(0.5);
+  double nearest = 9.0;
+  for (int i = 0; i < 400; ++i) {
+    world.avoider.dock_with(world.now, {0.08, 0.0});
+    world.run(0.05);
+    nearest = std::min(nearest, world.least_wall);
+  }
+  EXPECT_LT(nearest, 0.1);
+  EXPECT_GT(nearest, 0.015);
+  const double stood = world.driven;
+  world.run(2.0);  // nobody says anything any more
+  EXPECT_NEAR(world.driven, stood, 0.02);
+}
+
+TEST(DockDrive, FastItKeepsTheMargins) {
+  Rehearsal world;
+  world.box(-3, -3, 1.5, 3);
+  world.run(0.5);
+  for (int i = 0; i < 400; ++i) {
+    world.avoider.dock_with(world.now, {0.3, 0.0});
+    world.run(0.05);
+  }
+  EXPECT_GT(world.least_wall, 0.05);
 }
 
 }  // namespace

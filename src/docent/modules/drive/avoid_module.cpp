@@ -6,6 +6,7 @@
 #include "docent/collision_avoidance/avoider/avoider.h"
 #include "docent/grid/occupancy_grid.h"
 #include "docent/messages/conversions.h"
+#include "docent/messages/dock_topics.h"
 #include "docent/modules/shared/museum_mode.h"
 #include "docent/modules/shared/scanners.h"
 #include "docent/modules/shared/stop_keeper.h"
@@ -164,6 +165,10 @@ class AvoidModule final : public Module {
     bus_.subscribe<docent_msgs::Steering>(topics::kSteering, [this](const docent_msgs::Steering& steering) {
       avoider_.steer_by_hand(bus_.now(), {steering.is_pressed, steering.forward, steering.turn});
       reflex();  // a hand that lets go
+    });
+    bus_.subscribe<docent_msgs::Drive>(topics::kDockDrive, [this](const docent_msgs::Drive& wish) {
+      avoider_.dock_with(bus_.now(), {wish.linear, wish.angular});
+      reflex();
     });
     bus_.subscribe<docent_msgs::Target>(topics::kTarget, [this](const docent_msgs::Target& target) {
       collision_avoidance::AvoiderTarget wish;

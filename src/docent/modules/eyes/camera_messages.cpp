@@ -64,6 +64,18 @@ Result<vision::LensParams> lens_of(const sensor_msgs::CameraInfo& info) {
   return lens;
 }
 
+sensor_msgs::CameraInfo info_of(const vision::LensParams& lens) {
+  const bool is_fisheye = lens.kind == vision::LensParams::Kind::fisheye;
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(lens.columns), info.height = static_cast<std::uint32_t>(lens.rows);
+  info.distortion_model = is_fisheye ? "equidistant" : "plumb_bob";
+  info.d.assign(lens.bend.begin(), lens.bend.end() - (is_fisheye ? 1 : 0));
+  info.k = {lens.focal_x, 0.0, lens.centre_x, 0.0, lens.focal_y, lens.centre_y, 0.0, 0.0, 1.0};
+  info.r = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.p = {lens.focal_x, 0.0, lens.centre_x, 0.0, 0.0, lens.focal_y, lens.centre_y, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
 Result<std::vector<std::uint8_t>> grey_of(const sensor_msgs::Image& image) {
   if (image.encoding == "mono8" && image.step == image.width &&
       image.data.size() == std::size_t{image.step} * image.height)
@@ -71,9 +83,13 @@ Result<std::vector<std::uint8_t>> grey_of(const sensor_msgs::Image& image) {
   const auto read = pictures::image_of({static_cast<int>(image.width), static_cast<int>(image.height), image.step,
                                         image.encoding, image.is_bigendian != 0, image.data});
   if (!read) return tl::unexpected<Error>(read.error());
+  return grey_of(*read);
+}
+
+std::vector<std::uint8_t> grey_of(const pictures::Image& image) {
   std::vector<std::uint8_t> grey;
-  grey.reserve(static_cast<std::size_t>(read->width()) * static_cast<std::size_t>(read->height()));
-  const auto bytes = read->bytes();
+  grey.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
+  const auto bytes = image.bytes();
   for (std::size_t i = 0; i < bytes.size(); i += 4)  // Rec. 601
     grey.push_back(static_cast<std::uint8_t>((77U * bytes[i] + 150U * bytes[i + 1] + 29U * bytes[i + 2]) >> 8U));
   return grey;

@@ -5,6 +5,7 @@
 
 #include "docent/base/result.h"
 #include "docent/messages/standard_messages.h"
+#include "docent/pictures/image.h"
 #include "docent/vision/depth/depth_camera.h"
 #include "docent/vision/lens/lens.h"
 
@@ -17,8 +18,12 @@ namespace docent::modules {
 /// part of the sensor's picture, numbers of another count than the model has.
 [[nodiscard]] Result<vision::LensParams> lens_of(const sensor_msgs::CameraInfo& info);
 
+/// What a driver says of such a lens; without header.
+[[nodiscard]] sensor_msgs::CameraInfo info_of(const vision::LensParams& lens);
+
 /// Brightness of a picture's pixels, row after row. Error: an encoding that is not read, rows that do not fill it.
 [[nodiscard]] Result<std::vector<std::uint8_t>> grey_of(const sensor_msgs::Image& image);
+[[nodiscard]] std::vector<std::uint8_t> grey_of(const pictures::Image& image);
 
 /// One of several pixels of a camera's pictures, so that none is wider than `kWidest`: floor and things need no more.
 inline constexpr int kWidestDepth = 320;  ///< [pixels]

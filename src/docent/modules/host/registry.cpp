@@ -10,7 +10,9 @@
 #include "docent/modules/edge/scene_camera_module.h"
 #include "docent/modules/edge/visualize_module.h"
 #include "docent/modules/exploration/explore_module.h"
+#include "docent/modules/eyes/capture_module.h"
 #include "docent/modules/eyes/ceiling_module.h"
+#include "docent/modules/eyes/dock_module.h"
 #include "docent/modules/eyes/sight_module.h"
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/modules/guide/executive_module.h"
@@ -34,8 +36,10 @@ constexpr std::array kModules{
     ModuleEntry{.name = "calibrate", .make = make_calibrate, .parameters = parameters_of_calibrate, .explores = true, .marks = true},
     ModuleEntry{.name = "map", .make = make_map, .parameters = parameters_of_map, .marks = true},
     ModuleEntry{.name = "people", .make = make_people, .parameters = parameters_of_people, .explores = true, .marks = true},
+    ModuleEntry{.name = "capture", .make = make_capture, .parameters = parameters_of_capture, .is_prompt = true, .explores = true, .marks = true},
     ModuleEntry{.name = "ceiling", .make = make_ceiling, .parameters = parameters_of_ceiling},
     ModuleEntry{.name = "sight", .make = make_sight, .parameters = parameters_of_sight, .is_prompt = true, .explores = true, .marks = true},
+    ModuleEntry{.name = "dock", .make = make_dock, .parameters = parameters_of_dock, .is_prompt = true},
     ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},
     ModuleEntry{.name = "record", .make = make_record, .parameters = parameters_of_record, .is_prompt = true, .sees_truth = true, .explores = true, .marks = true},
     ModuleEntry{.name = "robot", .make = make_robot, .parameters = parameters_of_robot, .is_urgent = true, .explores = true, .marks = true},

@@ -8,14 +8,16 @@ namespace docent::planning {
 
 Result<void> DockApproachParams::validate() const {
   if (!(contact > 0.0 && straight > 0.0)) return fail("dock approach: contact and straight must be > 0");
-  if (!(speed > 0.0 && last_speed > 0.0 && turn > 0.0)) return fail("dock approach: speeds and turn must be > 0");
+  if (!(speed > 0.0 && last_speed > 0.0 && press_speed > 0.0 && turn > 0.0))
+    return fail("dock approach: speeds and turn must be > 0");
   if (!(towards > 0.0 && bearing > towards && heading < 0.0))
     return fail("dock approach: it takes towards > 0, bearing > towards, heading < 0");
   if (!(across > 0.0 && along > 0.0)) return fail("dock approach: across and along must be > 0");
   if (!(most_across > 0.0 && most_angle > 0.0)) return fail("dock approach: most_across and most_angle must be > 0");
   if (!(judged > 0.0 && judged < straight)) return fail("dock approach: judged must be in (0, straight)");
   if (!(back_off > 0.0 && attempts >= 1)) return fail("dock approach: back_off must be > 0 and attempts >= 1");
-  if (!(look_s > 0.0 && press >= 0.0)) return fail("dock approach: look_s must be > 0 and press >= 0");
+  if (!(look_s > 0.0 && wait_s > 0.0 && press >= 0.0))
+    return fail("dock approach: look_s and wait_s must be > 0 and press >= 0");
   return {};
 }
 
@@ -31,6 +33,10 @@ DockApproach::Command DockApproach::step(const DockApproachView& view, Time now)
     state_ = State::docked;
     return {};
   }
+  if (state_ == State::waits) {
+    if (now - since_ >= seconds(params_.wait_s)) begin_anew();
+    return {};
+  }
   if (!view.odom_from_tag) {  // no line, or no more: what was driven by it was driven by a guess
     if (state_ != State::looks) since_ = now;
     state_ = State::looks;
@@ -38,8 +44,8 @@ DockApproach::Command DockApproach::step(const DockApproachView& view, Time now)
   }
   if (state_ == State::looks) state_ = State::curves;
   const Pose2 tag_from_base = inverse(*view.odom_from_tag) * view.odom_from_base;
-  if (state_ == State::curves) return curve(tag_from_base);
-  if (state_ == State::goes_straight) return go_straight(tag_from_base);
+  if (state_ == State::curves) return curve(tag_from_base, now);
+  if (state_ == State::goes_straight) return go_straight(tag_from_base, now);
   return back_off(tag_from_base);
 }
 
@@ -57,7 +63,7 @@ DockApproach::Command DockApproach::look(const DockApproachView& view, Time now)
   return {0.0, std::clamp(2.0 * off, -params_.turn, params_.turn)};
 }
 
-DockApproach::Command DockApproach::curve(const Pose2& tag_from_base) {
+DockApproach::Command DockApproach::curve(const Pose2& tag_from_base, Time now) {
   const Pose2 tag_from_goal{params_.contact + params_.straight, 0.0, Angle::radians(-std::numbers::pi)};
   const Pose2 goal_from_base = inverse(tag_from_goal) * tag_from_base;
   const Point2 to_go = -1.0 * goal_from_base.position();
@@ -65,7 +71,7 @@ DockApproach::Command DockApproach::curve(const Pose2& tag_from_base) {
   constexpr double kThere = 0.04;  // [m]
   if (distance < kThere || goal_from_base.x > 0.0) {
     state_ = State::goes_straight;
-    return go_straight(tag_from_base);
+    return go_straight(tag_from_base, now);
   }
   const double direction_to_go = std::atan2(to_go.y, to_go.x);
   const double bearing = (Angle::radians(direction_to_go) - goal_from_base.theta).radians();
@@ -77,19 +83,28 @@ DockApproach::Command DockApproach::curve(const Pose2& tag_from_base) {
   return limited(slow, turn * slow / (params_.towards * distance));
 }
 
-DockApproach::Command DockApproach::go_straight(const Pose2& tag_from_base) {
+void DockApproach::begin_anew() {
+  state_ = attempts_ < params_.attempts ? State::backs_off : State::failed;
+  ++attempts_;
+}
+
+DockApproach::Command DockApproach::go_straight(const Pose2& tag_from_base, Time now) {
   const double to_go = tag_from_base.x - params_.contact;
   const double angle = (tag_from_base.theta - Angle::radians(std::numbers::pi)).radians();
   const bool is_off = std::abs(tag_from_base.y) > params_.most_across ||
                       std::abs(angle) > params_.most_angle * std::numbers::pi / 180.0;
-  if ((to_go < params_.judged && is_off) || to_go < -params_.press) {
-    state_ = attempts_ < params_.attempts ? State::backs_off : State::failed;
-    ++attempts_;
+  if (to_go < -params_.press) {
+    state_ = State::waits;
+    since_ = now;
+    return {};
+  }
+  if (to_go < params_.judged && is_off) {
+    begin_anew();
     return {};
   }
   // In the tag's frame y > 0 lies to the right of who drives towards it: there the base turns left.
   const double curvature = params_.across * tag_from_base.y - params_.along * angle;
-  const double speed = params_.last_speed;
+  const double speed = to_go < params_.judged ? params_.press_speed : params_.last_speed;
   return limited(speed, speed * curvature);
 }
 

@@ -6,14 +6,14 @@ namespace docent::simulator {
 
 /// Something happens to an eye of the robot, or to the light.
 struct EyeFault {
-  enum class Eye { depth, ceiling };
+  enum class Eye { depth, ceiling, front };
   enum class Kind {
     gone,         ///< no picture at all
     frozen,       ///< the last one again and again, with fresh stamps
     black,        ///< nothing on it
     upside_down,  ///< turned by half a turn
     late,         ///< pictures come `delay` seconds after their stamp
-    exposure,     ///< the ceiling's is `gain` times as bright
+    exposure,     ///< the ceiling's or the front one's is `gain` times as bright
     lamps_off     ///< all lamps of the hall are out
   };
   Eye eye = Eye::depth;

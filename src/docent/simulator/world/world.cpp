@@ -198,10 +198,10 @@ class WorldParser {
     reader("ceiling", ceiling);
     reader("ceiling_style", style);
     reader("marks", marks);
+    (void)reader.node("contacts");  // of load_contacts
     reader("pedestrians", world.pedestrians_file);
     reader("scene_camera", camera);
     reader.finish();
-
     world.floor = polygon(root_["floor"], floor);
     world.operating_area = polygon(root_["operating_area"], area);
     world.entrances = points(root_["entrances"], entrances);

@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "docent/task_control/golex/executive_fixture.h"
 
@@ -39,7 +40,7 @@ class DockingTest : public testing::Test {
 
   /// It stands before a charger on which something stands.
   void stand_before() {
-    docking = Docking{{}, kCharger, true, time()};
+    docking = Docking{{}, kCharger, DockingStart::occupied, time()};
     is_occupied = true;
   }
 
@@ -48,7 +49,7 @@ class DockingTest : public testing::Test {
   bool is_occupied = false;
   std::string move;
   std::set<std::string> moves;
-  Docking docking{{}, kCharger, false, time_from_seconds(100.0)};
+  Docking docking{{}, kCharger, DockingStart::at_charger, time_from_seconds(100.0)};
 };
 
 TEST_F(DockingTest, ABatteryThatChargesEndsIt) { EXPECT_EQ(pass(1.0, Contact::made), Docking::State::docked); }
@@ -62,7 +63,7 @@ TEST_F(DockingTest, WhoDocksByItselfIsWaitedForAndSetsOutAnewFromFartherOff) {
   EXPECT_TRUE(moves.empty()) << "its time begins when the base has given up";
   DockingParams params;
   params.by_action = true;
-  docking = Docking{params, kCharger, false, time()};
+  docking = Docking{params, kCharger, DockingStart::at_charger, time()};
   while (!docking.move() || docking.move()->name != "before") pass(0.25, Contact::none);
   // The robot looks to where y grows, at the dock.
   EXPECT_NEAR(docking.move()->map_from_base.y, 1.5 - params.stand_off_m, 1e-9);
@@ -137,6 +138,78 @@ TEST_F(DockingTest, WhatIsPutOnTheChargerBetweenTwoTriesIsSeen) {
   is_occupied = true;
   EXPECT_EQ(pass(300.0, Contact::none, 1e9), Docking::State::failed);
   EXPECT_EQ(docking.failure(), ReasonWord::charger_occupied);
+}
+
+/// A docking by the tag, from where the tag is seen.
+Docking by_tag() { return {{}, kCharger, DockingStart::before_tag, time_from_seconds(0.0)}; }
+
+TEST(DockingByTag, OrdersItAndIsDockedByTheBattery) {
+  Docking docking = by_tag();
+  const auto order = docking.tag_order();
+  ASSERT_TRUE(order);
+  EXPECT_FALSE(docking.move()) << "nothing else drives meanwhile";
+  EXPECT_TRUE(docking.is_by_tag());
+  const auto step = [&](double at, Contact contact, ByTag tag) {
+    return docking.step({.contact = contact, .by_tag = tag}, time_from_seconds(at));
+  };
+  EXPECT_EQ(step(1.0, Contact::none, ByTag::ready), Docking::State::under_way);
+  EXPECT_EQ(step(60.0, Contact::none, ByTag::drives), Docking::State::under_way) << "as long as it takes";
+  EXPECT_EQ(step(61.0, Contact::made, ByTag::drives), Docking::State::docked);
+  EXPECT_TRUE(docking.is_by_tag());
+}
+
+TEST(DockingByTag, TriesOnceMoreAndThenAsWithoutATag) {
+  Docking docking = by_tag();
+  std::vector<std::string> seen;
+  auto state = Docking::State::under_way;
+  for (double now = 0.0; now < 300.0 && state != Docking::State::failed; now += 0.25) {
+    const auto order = docking.tag_order();
+    const auto move = docking.move();
+    const std::string name = order ? *order : move ? move->name : "waits";
+    if (seen.empty() || seen.back() != name) seen.push_back(name);
+    DockingView view{.contact = Contact::none, .by_tag = order ? ByTag::failed : ByTag::ready};
+    if (move) view.moved = GoalStatus::arrived;
+    state = docking.step(view, time_from_seconds(now));
+  }
+  EXPECT_EQ(state, Docking::State::failed);
+  const std::vector<std::string> asked{"by-tag-0", "waits", "again",  "by-tag-3",    "waits",
+                                       "closer",   "waits", "before", "from-before", "waits"};
+  EXPECT_EQ(seen, asked);
+  EXPECT_EQ(docking.failure(), ReasonWord::charger_no_current) << "it stood there";
+}
+
+TEST(DockingByTag, WithoutAnAnswerItGoesOnSoon) {
+  Docking docking = by_tag();
+  (void)docking.step({.contact = Contact::none, .by_tag = ByTag::ready}, time_from_seconds(3.5));
+  EXPECT_FALSE(docking.tag_order());
+}
+
+TEST_F(ExecutiveTest, DocksByTheTagFromBeforeTheCharger) {
+  executive.tag_report(ByTag::ready);
+  start({{"c", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  executive.charging_report(false);
+  EXPECT_EQ(drive->id, "c/drive");
+  EXPECT_NEAR(drive->map_from_base.x, 1.5, 1e-9) << "from there it sees the tag";
+  EXPECT_FALSE(executive.tag_order());
+  pass(6.0);
+  goal(GoalStatus::arrived);
+  ASSERT_TRUE(executive.tag_order());
+  EXPECT_EQ(executive.tag_order()->map_from_base.position(), (Point2{3, 4}));
+  EXPECT_EQ(drive->id, "") << "nothing else drives";
+  executive.tag_report(ByTag::drives);
+  pass(30.0);
+  EXPECT_TRUE(executive.tag_order());
+  executive.charging_report(true);
+  pass(1.0);
+  EXPECT_EQ(state.state, TaskStatus::done);
+  EXPECT_FALSE(executive.tag_order());
+  EXPECT_EQ(drive->id, "") << "it stays where it stands";
+}
+
+TEST_F(ExecutiveTest, WithoutAnEyeItDrivesToTheChargerItself) {
+  executive.tag_report(ByTag::none);
+  start({{"c", TaskKind::charge, "", {3, 4, {}}, "en", false, ""}, "", "", ""});
+  EXPECT_EQ(drive->map_from_base.position(), (Point2{3, 4}));
 }
 
 TEST_F(ExecutiveTest, BeforeAThingOnItsChargerItBlowsNoHornAndAsksNobody) {

@@ -57,6 +57,7 @@ void Executive::set_task(ExecutiveTask task, Time now) {
   memory_.drive_began = now;
   goal_ = {};
   docking_.reset();
+  stands_by_tag_ = false;
   actions_.must_save = true;
   const TaskOrder& order = memory_.task.order;
   send_drive();  // what it did before is over, whatever begins now
@@ -165,6 +166,7 @@ void Executive::begin(const Directive& directive, Time now) {
     case DirectiveKind::drive:
       memory_.drive_began = now;
       approach_.set_out(memory_.task.order.map_from_base, now);
+      drives_to_tag_ = directive.argument == "charger" && by_tag_ == ByTag::ready;
       [[fallthrough]];
     case DirectiveKind::relocalize:
       send_drive();

@@ -47,6 +47,7 @@ struct DriveOrder {
   Pose2 map_from_base;
   bool relocalize = false;
   double position_tolerance = 0.25;  ///< [m]
+  double heading_tolerance = 0.1;    ///< [rad]
 };
 struct GoalReport {
   std::string id;
@@ -116,6 +117,10 @@ class Executive {
   }
   /// Likewise of a base that docks by itself, which knows more than its battery.
   void contact_report(Contact contact) { contact_ = contact; }
+  /// How docking by the charger's tag goes, of the order named by `tag_order`; ready without one: it could.
+  void tag_report(ByTag by_tag) { by_tag_ = by_tag; }
+  /// An order to dock by the tag of the charger that stands at `map_from_base`; nullopt: none.
+  [[nodiscard]] std::optional<DriveOrder> tag_order() const;
   /// It waits at the charger for a contact, or stands there with one: a base that docks by itself is to be docked.
   [[nodiscard]] bool wants_contact() const;
   /// It is on its way to the charger with a task that is over once it has a contact.
@@ -208,6 +213,9 @@ class Executive {
   std::optional<Docking> docking_;  ///< while it docks
   SomebodyThere somebody_;          ///< at the charger
   Contact contact_ = Contact::unheard;
+  ByTag by_tag_ = ByTag::none;
+  bool drives_to_tag_ = false;  ///< the drive to the charger leads to where its tag is seen
+  bool stands_by_tag_ = false;  ///< it has docked by the tag, and stays where it stands
   Mood shown_mood_ = Mood::neutral;
   Time shown_at_{};
   std::optional<SpeechReport> heard_;  ///< of the present utterance

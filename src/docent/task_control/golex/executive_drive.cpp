@@ -16,7 +16,8 @@ DriveOrder Executive::drive_order() const {
   const TaskOrder& order = memory_.task.order;
   if (under_way(DirectiveKind::relocalize) != nullptr) return {own_id("relocalize"), {}, true};
   if (const auto move = docking_ ? docking_->move() : std::nullopt)
-    return {own_id(move->name), move->map_from_base, false, move->position_tolerance};
+    return {own_id(move->name), move->map_from_base, false, move->position_tolerance, move->heading_tolerance};
+  if (stands_by_tag_ || (docking_ && docking_->is_by_tag())) return {};
   const auto* action = decomposition_.find(order.kind.text());
   if (memory_.phase == Phase::idle || memory_.phase == Phase::failed || action == nullptr) return {};
   // After its drive it stays at the place: the goal remains the last one that was begun.
@@ -24,7 +25,17 @@ DriveOrder Executive::drive_order() const {
   const Directive* drive = last_drive(*action, begun);
   if (drive == nullptr) return {};
   const double tolerance = drive->argument == "charger" ? params_.charger_tolerance : DriveOrder{}.position_tolerance;
-  return {own_id(drive->name), order.map_from_base, false, tolerance};
+  if (drive->argument != "charger" || !drives_to_tag_)
+    return {own_id(drive->name), order.map_from_base, false, tolerance};
+  const Pose2 charger_from_base{-params_.docking.tag_stand_off_m, 0.0, {}};
+  return {own_id(drive->name), order.map_from_base * charger_from_base, false, BeforeTag::kPosition,
+          BeforeTag::kHeading};
+}
+
+std::optional<DriveOrder> Executive::tag_order() const {
+  const auto name = docking_ ? docking_->tag_order() : std::nullopt;
+  if (!name) return std::nullopt;
+  return DriveOrder{own_id(*name), memory_.task.order.map_from_base};
 }
 
 void Executive::watch_drive(Time now) {
@@ -123,19 +134,30 @@ void Executive::stand_at_charger(Time now) {
 
 void Executive::begin_docking(Time now) {
   const bool is_occupied = goal_.id == drive_order().id && goal_.is_occupied;
-  docking_.emplace(params_.docking, memory_.task.order.map_from_base, is_occupied, now);
+  const bool sees_tag = by_tag_ == ByTag::ready;
+  const DockingStart start = drives_to_tag_ ? DockingStart::before_tag
+                             : is_occupied  ? DockingStart::occupied
+                             : sees_tag     ? DockingStart::at_charger_tag
+                                            : DockingStart::at_charger;
+  docking_.emplace(params_.docking, memory_.task.order.map_from_base, start, now);
+  if (docking_->tag_order() || docking_->move()) send_drive();
 }
 
 void Executive::watch_docking(const Directive& directive, Time now) {
   const auto move = docking_->move();
-  DockingView view{.contact = contact_};
+  DockingView view{.contact = contact_, .by_tag = by_tag_};
+  const bool is_by_tag = docking_->is_by_tag();
   if (goal_.id == drive_order().id) view.is_occupied = goal_.is_occupied;
   if (move && goal_.id == own_id(move->name)) {
     view.moved = goal_.state;
     view.blocked_s = goal_.blocked_s;
   }
   const auto state = docking_->step(view, now);
-  if (state == Docking::State::docked) return end(directive, now);
+  if (state == Docking::State::docked) {
+    stands_by_tag_ = is_by_tag;
+    drives_to_tag_ = false;
+    return end(directive, now);
+  }
   if (state == Docking::State::failed) return fail_to_charge(docking_->failure());
   if (state == Docking::State::sets_out) send_drive();
   set_note(docking_->is_occupied() ? ReasonWord::charger_occupied : Reason{});

@@ -11,12 +11,13 @@ namespace {
 constexpr double kRadiansOfDegree = std::numbers::pi / 180.0;
 
 /// Numbers of a lens for a picture of 320 pixels, for one of any width.
-LensModel scaled(LensModel lens, const RigOptions& options) {
-  const double by = options.width / 320.0;
-  lens.width = options.width, lens.height = options.height;
+LensModel scaled(LensModel lens, const RigOptions& options, double times = 1.0) {
+  lens.width = static_cast<int>(std::lround(times * options.width));
+  lens.height = static_cast<int>(std::lround(times * options.height));
+  const double by = lens.width / 320.0;
   lens.focal_x *= by, lens.focal_y *= by;
-  lens.centre_x = 0.5 * options.width + by * (lens.centre_x - 160.0);
-  lens.centre_y = 0.5 * options.height + by * (lens.centre_y - 120.0);
+  lens.centre_x = 0.5 * lens.width + by * (lens.centre_x - 160.0);
+  lens.centre_y = 0.5 * lens.height + by * (lens.centre_y - 120.0);
   return lens;
 }
 
@@ -91,7 +92,7 @@ EyeRig told_rig(const RigOptions& options) {
   const CameraMount front_mount{.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = degrees(-28.0), .roll = 0.0};
   const CameraMount depth_mount{.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = degrees(-30.0), .roll = 0.0};
   return {{scaled(up, options), options.up_mount.value_or(up_mount)},
-          {scaled(front, options), front_mount},
+          {scaled(front, options, options.front_times), options.front_mount.value_or(front_mount)},
           {scaled(depth, options), options.depth_mount.value_or(depth_mount)}};
 }
 
