@@ -72,6 +72,12 @@ const en = {
   removePicture: 'Remove the picture',
   noPicture: 'This file is no picture that the browser can show.',
   notSent: 'The picture did not arrive.',
+  recordings: 'Recorded voices',
+  recordingsHint: 'A sound file (WAV, Ogg or FLAC) with one of these names in the museum’s folder is played instead of the robot’s own voice.',
+  recorded: '{} of the {} things that the robot can say are recorded.',
+  isRecorded: 'recorded',
+  isSpoken: 'by the robot’s voice',
+  strays: 'Files that are recordings of nothing the robot says:',
 };
 export type EditorWords = typeof en;
 
@@ -148,6 +154,12 @@ const de: EditorWords = {
   removePicture: 'Bild entfernen',
   noPicture: 'Diese Datei ist kein Bild, das der Browser zeigen kann.',
   notSent: 'Das Bild ist nicht angekommen.',
+  recordings: 'Aufgenommene Stimmen',
+  recordingsHint: 'Eine Tondatei (WAV, Ogg oder FLAC) mit einem dieser Namen im Ordner des Museums wird statt der Stimme des Roboters abgespielt.',
+  recorded: '{} von {} Dingen, die der Roboter sagen kann, sind aufgenommen.',
+  isRecorded: 'aufgenommen',
+  isSpoken: 'mit der Stimme des Roboters',
+  strays: 'Dateien, die nichts aufnehmen, was der Roboter sagt:',
 };
 
 const fr: EditorWords = {
@@ -223,6 +235,12 @@ const fr: EditorWords = {
   removePicture: 'Enlever l’image',
   noPicture: 'Ce fichier n’est pas une image que le navigateur sait montrer.',
   notSent: 'L’image n’est pas arrivée.',
+  recordings: 'Voix enregistrées',
+  recordingsHint: 'Un fichier son (WAV, Ogg ou FLAC) qui porte un de ces noms dans le dossier du musée est joué à la place de la voix du robot.',
+  recorded: '{} des {} phrases que le robot peut dire sont enregistrées.',
+  isRecorded: 'enregistrée',
+  isSpoken: 'par la voix du robot',
+  strays: 'Fichiers qui n’enregistrent rien de ce que dit le robot :',
 };
 
 const all: Record<string, EditorWords> = { en, de, fr };

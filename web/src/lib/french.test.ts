@@ -1,5 +1,3 @@
-import { readFileSync, readdirSync } from 'node:fs';
-import { join } from 'node:path';
 import { expect, test } from 'vitest';
 import { parsed, spaced } from './french';
 
@@ -9,14 +7,12 @@ test('a text keeps its length, and breaks before no sign', () => {
   expect(parsed('{"fr": "Allez !", "en": "Go !"}')).toEqual({ fr: 'Allez\u00a0!', en: 'Go !' });
 });
 
+const sources = import.meta.glob<string>(['../**/words/fr.ts', '../**/words.ts'], { eager: true, query: '?raw', import: 'default' });
 /** Every file of the page that has French words, with these words. */
 function catalogues(): [string, string][] {
-  const source = join(__dirname, '..');
-  const files = readdirSync(source, { recursive: true, encoding: 'utf8' });
-  return files.flatMap((file): [string, string][] => {
-    if (/words[\\/]fr\.ts$/.test(file)) return [[file, readFileSync(join(source, file), 'utf8')]];
-    if (!/words\.ts$/.test(file)) return [];
-    const french = /const fr\b[^=]*= \{\n([\s\S]*?)\n\};/.exec(readFileSync(join(source, file), 'utf8'));
+  return Object.entries(sources).flatMap(([file, text]): [string, string][] => {
+    if (file.endsWith('/fr.ts')) return [[file, text]];
+    const french = /const fr\b[^=]*= \{\n([\s\S]*?)\n\};/.exec(text);
     return french ? [[file, french[1]]] : [];
   });
 }

@@ -2,7 +2,6 @@
 #include "docent/telepresence/client_message.h"
 #include "docent/telepresence/museum_office/exhibit_picture.h"
 #include "docent/telepresence/museum_office/museum_documents.h"
-#include "docent/telepresence/museum_office/recording_list.h"
 #include "docent/telepresence/robot_office/robot_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
 
@@ -75,11 +74,11 @@ ApiAnswer<documents::KeptPicture> keep_picture(ApiCall& call, const documents::M
 
 ApiAnswer<documents::MuseumRecordings> read_recordings(ApiCall& call, const Nothing& /*wish*/) {
   const auto& office = call.services.museum;
-  if (!office) return refuse(ApiFault::not_found, kNoMuseum);
+  if (!office || !office->recordings) return refuse(ApiFault::not_found, kNoMuseum);
   auto edition = office->workshop.read();
   if (!edition) return refuse(ApiFault::not_stored, edition.error().message);
   edition->museum.folder = office->workshop.published();
-  return recordings_of(edition->museum);
+  return office->recordings(edition->museum);
 }
 
 // A museum that is being set up.

@@ -1,13 +1,13 @@
-#include "docent/telepresence/museum_office/recording_list.h"
+#include "docent/modules/web/operators/recording_list.h"
 
 #include "docent/interaction/speech/repertoire.h"
 
-namespace docent::telepresence {
+namespace docent::modules {
 
-documents::MuseumRecordings recordings_of(const museum::Museum& museum) {
+telepresence::documents::MuseumRecordings recordings_of(const museum::Museum& museum) {
   const auto lines = interaction::repertoire(museum);
   const interaction::Recordings recordings{museum.folder, lines};
-  documents::MuseumRecordings document;
+  telepresence::documents::MuseumRecordings document;
   document.lines = lines.size();
   for (const auto& [name, line] : lines) {
     const auto* file = recordings.find(line.language, line.text);
@@ -21,4 +21,4 @@ documents::MuseumRecordings recordings_of(const museum::Museum& museum) {
   return document;
 }
 
-}  // namespace docent::telepresence
+}  // namespace docent::modules

@@ -1,4 +1,4 @@
-#include "docent/telepresence/museum_office/recording_list.h"
+#include "docent/modules/web/operators/recording_list.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include "docent/base/files.h"
 
-namespace docent::telepresence {
+namespace docent::modules {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,4 +36,4 @@ TEST(RecordingList, NamesTextsOfExhibitsAndWhatIsRecorded) {
 }
 
 }  // namespace
-}  // namespace docent::telepresence
+}  // namespace docent::modules
