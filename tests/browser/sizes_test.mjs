@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { answers, browse, build, check, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
 
-const sizes = [[320, 640], [360, 740], [390, 844], [414, 896], [1400, 900]];
+const sizes = [[320, 640], [360, 740], [390, 844], [414, 896], [700, 450], [768, 1024], [1400, 900]]; // 700: of 1400 at a zoom of 200 %
 const program = join(build, 'tests', 'web_stage', 'docent_web_stage');
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core'), 'utf8');
 

@@ -3,6 +3,7 @@ import { parsed, spaced } from './french';
 
 test('a text keeps its length, and breaks before no sign', () => {
   expect(spaced('Vraiment ! Oui : « bien » ; non ?')).toBe('Vraiment\u00a0! Oui\u00a0: «\u00a0bien\u00a0»\u00a0; non\u00a0?');
+  expect(spaced("L'aile d'un Airbus")).toBe('L’aile d’un Airbus');
   expect(spaced('à 10:30, ou :hover')).toBe('à 10:30, ou :hover');
   expect(parsed('{"fr": "Allez !", "en": "Go !"}')).toEqual({ fr: 'Allez\u00a0!', en: 'Go !' });
 });

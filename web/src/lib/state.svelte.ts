@@ -166,6 +166,10 @@ class App {
   t(key: Parameters<typeof word>[1]): string {
     return word(this.language, key);
   }
+  /** A number as the reader's language writes it: 1.4, 1,4. */
+  number(value: number, places: number): string {
+    return value.toLocaleString(this.language, { minimumFractionDigits: places, maximumFractionDigits: places, useGrouping: false });
+  }
   say(texts: Record<string, string> | undefined): string {
     if (!texts) return '';
     return texts[this.language] || texts[this.museum?.languages[0] ?? ''] || Object.values(texts)[0] || '';

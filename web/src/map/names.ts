@@ -23,11 +23,13 @@ export interface Place {
   isFree: boolean;
 }
 
-const MARKER = 20; // half a marker with its rim [px]
+export const MARKER = 20; // half a marker with its rim [px]
 const END = 12; // from its end to below the marker's middle [px]
 const HEIGHT = 17; // of a name as style.css draws it [px]
 
-const meet = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+/** So far to both sides of a point, and up and down. */
+export const around = ([x, y]: number[], wide: number, tall = wide): Box => ({ left: x - wide, top: y - tall, right: x + wide, bottom: y + tall });
+export const meet = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 /**
  * Gives each name in turn the first place beside its marker that covers no marker, none of the `others`, no name before
