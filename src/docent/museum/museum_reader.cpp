@@ -382,8 +382,7 @@ class MuseumYamlReader : MuseumFields {
     for (std::size_t i = 0; i < tour.exhibits.size(); ++i) {
       const Exhibit* exhibit = museum_.find_exhibit(tour.exhibits[i]);
       // An exhibit with a fault of its own is not known here: name that fault only.
-      if (exhibit == nullptr && !named(tour.exhibits[i])) {
-        if (!knows_exhibits_) continue;  // nor is any other
+      if (exhibit == nullptr && knows_exhibits_ && !named(tour.exhibits[i])) {
         if (source_.exhibits.empty()) source_.of_no_exhibits.push_back(source_.faults.size());
         report(exhibits[i], who + ": unknown exhibit '" + tour.exhibits[i] + "'");
       } else if (exhibit != nullptr && exhibit->web_only) {
