@@ -40,7 +40,7 @@ TEST(ExhibitPicture, IsDrawnAnewWithoutWhatIsNoPicture) {
 
 TEST(ExhibitPicture, RefusesWhatIsNone) {
   std::vector<std::uint8_t> cut = jpeg_of(64, 48);
-  cut.resize(cut.size() / 2);
+  cut.resize(cut.size() - 20);
   const std::string page = "<svg onload=\"alert(1)\"/>";
   const std::vector<std::pair<std::string, std::string>> cases{
       {"", "base64"},
