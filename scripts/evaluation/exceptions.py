@@ -106,22 +106,13 @@ def tour_goes_on(run, tour, after):
 
 
 def goes_on_at_its_stop(run, tour):
-    """After it was broken off: the first that it shows is the first that it had not shown. Where nothing was broken off: at once."""
+    """What it shows first, after it was broken off, is the first that it had not shown. Where nothing was broken off: at once."""
     broken, begun = run.first("tour_broken_off", subject=tour), run.all("tour_started", subject=tour)
-    if broken is None or not begun:
+    if broken is None:
         return 0.0 if begun else None
-    of_tour = [row for row in run.all("explained") if row["detail"] == tour]
-    shown = {row["subject"] for row in of_tour if row["time"] <= broken}
-    ahead = [exhibit for exhibit in begun[0]["detail"].split() if exhibit not in shown]
-    first = next((row for row in of_tour if row["time"] > broken), None)
-    return first["time"] - broken if first and ahead and first["subject"] == ahead[0] else None
-
-
-def is_let_go(run, tour):
-    """The tour that was broken off is let go, and not begun again by itself."""
-    broken = run.first("tour_broken_off", subject=tour)
-    gone = None if broken is None else run.first("tour_cancelled", broken, tour)
-    return since(gone, broken) if len(run.all("tour_started", subject=tour)) == 1 else None
+    shown = [(row["time"], row["subject"]) for row in run.all("explained") if row["detail"] == tour]
+    ahead = [one for one in begun[0]["detail"].split() if one not in {name for at, name in shown if at <= broken}]
+    return next((at - broken for at, name in shown if at > broken and [name] == ahead[:1]), None)
 
 
 def longest_question(run):
@@ -199,7 +190,7 @@ SCENARIOS = {
     ], {"tours under way when the charge fell": (lambda run: sum(row["time"] < (run.struck("battery") or 0) for row in run.all("tour_started")), 1),
         "charges": (lambda run: run.report["battery"]["charges"], 1)}, NO_WATCH, breaks_off=1),
     "tour-left": Exceptional(60, [
-        Duty("the tour is let go, after it was broken off", 2300, lambda run: is_let_go(run, "on-the-move")),
+        Duty("the tour is let go, after it was broken off", 2300, lambda run: since(run.first("tour_cancelled"), run.first("tour_broken_off"))),
         Duty("another one is given, after its wish", 1100, lambda run: since(run.served("small-things"), 2400.0)),
     ], {"tours broken off": (count("tour_broken_off"), 1)}, NO_WATCH, fails=("on-the-move",), crowd="empty"),
     "charger-occupied": Exceptional(60, [
