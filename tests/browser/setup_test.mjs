@@ -1,6 +1,8 @@
 // docent setup, as a technician uses it: from a folder that is not there to the first tour. The robot maps a small simulated
-// hall by itself, is driven to what shall be marked, is put away over night, and gives its tour. That it touches nothing is
-// said by the truth channel of its recordings.
+// hall by itself, is driven to what shall be marked, is put away over night, and gives its tour. All of the museum is made on the
+// page: five exhibits with pictures and links, two tours, rooms, hours, and areas where it must not go. That it touches nothing
+// is said by the truth channel of its recordings.
+import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { browse, build, check, editorMap, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
@@ -200,13 +202,95 @@ await must('exhibits are placed on the map, and by driving there', async () => {
   ensure(known.exhibits.length === 2, `${known.exhibits.length} exhibits`);
   ensure(far(known.exhibits[1].pose, at) < 0.05, 'the second one is not where the robot was');
 });
+/** A picture that is larger than the museum keeps it, as a camera would give it. */
+const photograph = (hue) => page.evaluate((hue) => {
+  const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [2400, 1600];
+  const pen = canvas.getContext('2d');
+  for (let i = 0; i < 400; ++i) {
+    pen.fillStyle = `hsl(${hue + i / 5} 60% ${20 + (i * 37) % 60}%)`;
+    pen.fillRect((i * 613) % 2400, (i * 419) % 1600, 300, 200);
+  }
+  return canvas.toDataURL('image/png').split(',')[1];
+}, hue).then((base64) => Buffer.from(base64, 'base64'));
+const listed = (text) => page.locator('.editor-list button', { hasText: text }).click();
+await must('three more exhibits, each of the five with a picture and a link', async () => {
+  const more = [
+    [[8.6, 4.9], { en: 'The clock', de: 'Die Uhr' }, { en: 'It stands still.', de: 'Sie steht.' }],
+    [[1.5, 4.6], { en: 'The cabinet', de: 'Der Schrank' }, { en: 'It is empty.', de: 'Er ist leer.' }],
+    [[6.6, 2.6], { en: 'The bench', de: 'Die Bank' }, { en: 'Take a seat.', de: 'Nehmen Sie Platz.' }],
+  ];
+  for (const [place, title, short] of more) {
+    await tool('exhibit');
+    await click(place);
+    await write('title', title);
+    await write('short', short);
+    await page.locator('[name=short-de]').blur();
+  }
+  ensure((await page.locator('.of-exhibit').count()) === 5, 'five exhibits');
+  await listed('The globe');
+  await page.locator('[name=picture]').setInputFiles({ name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('no picture') });
+  await page.waitForSelector('.editor-picture [role=alert]');
+  for (const [i, name] of ['The globe', 'The wall', 'The clock', 'The cabinet', 'The bench'].entries()) {
+    await listed(name);
+    await page.locator('[name=picture]').setInputFiles({ name: `${i}.png`, mimeType: 'image/png', buffer: await photograph(60 * i) });
+    await page.waitForSelector('.editor-picture[data-busy=false][data-picture^="pictures/"] img', { timeout: 30000 });
+    await page.locator('[data-do=link]').click();
+    await page.locator('[name=url-0]').fill(`https://example.org/${i}`);
+    await write('link-0', { en: `More of ${name}`, de: 'Mehr davon' });
+    await page.locator('[name=link-0-de]').blur();
+  }
+  await shot('pictures');
+});
+await must('rooms, hours and a tour of their own', async () => {
+  for (const [place, id, name] of [[[2.4, 3.4], 'west', { en: 'The west', de: 'Der Westen' }], [[7.4, 3.9], 'east', { en: 'The east', de: 'Der Osten' }]]) {
+    await tool('room');
+    await click(place);
+    await page.locator('.editor-form [name=id]').fill(id);
+    await write('name', name);
+    await page.locator('[name=name-de]').blur();
+  }
+  ensure((await page.locator('[data-room]').count()) === 2, 'two rooms on the map');
+  await page.locator('[data-do=hours]').click();
+  await page.locator('[name=hours-open]').fill('nine to five');
+  await page.locator('[name=hours-open]').blur();
+  await page.waitForSelector('.editor-fault');
+  await page.locator('[name=hours-open]').fill('0-24');
+  await page.locator('[name=hours-open]').blur();
+  await page.locator('.editor-form [data-do=tour]').click();
+  await page.locator('.editor-form [name=id]').fill('short');
+  await write('title', { en: 'The short tour', de: 'Die kurze Führung' });
+  for (const stop of ['exhibit-1', 'exhibit-4', 'exhibit-3']) await page.locator('[name=stop]').selectOption(stop);
+  await page.locator('[name=daily]').fill('14:00');
+  await page.locator('[name=daily]').blur();
+  ensure((await page.locator('.of-tour').count()) === 2, 'two tours');
+  const says = await axeSays(page);
+  ensure(says.length === 0, `axe: ${says.join('; ')}`);
+  await shot('made');
+  await press('save');
+  await page.waitForSelector('.setup[data-busy=false][data-beginning=false]', { timeout: 60000 });
+  const faults = await page.locator('.faults').allTextContents();
+  ensure(faults.length === 0, faults.join(' '));
+  const known = await page.evaluate(() => fetch('/api/museum.json').then((reply) => reply.json()));
+  ensure(known.exhibits.length === 5 && known.exhibits.every((one) => one.links.length === 1), JSON.stringify(known.exhibits).slice(0, 600));
+  ensure(known.tours.find((one) => one.id === 'short')?.daily.join() === '14:00', JSON.stringify(known.tours));
+  ensure(['west', 'east'].every((id) => known.rooms.some((room) => room.id === id)), JSON.stringify(known.rooms));
+  ensure(known.hazards.length === 2, 'where it must not go');
+  const sizes = await page.evaluate((paths) => Promise.all(paths.map(async (path) => {
+    const reply = await fetch(path);
+    const picture = await createImageBitmap(await reply.blob());
+    return [reply.headers.get('content-type'), picture.width, picture.height].join(' ');
+  })), known.exhibits.map((one) => one.picture));
+  ensure(sizes.every((size) => size === 'image/jpeg 1600 1067'), sizes.join(', '));
+  ensure(/open: \{hours: \["00:00-24:00"\]\}/.test(readFileSync(join(museum, 'museum.yaml'), 'utf8')), 'the hours');
+});
 await must('over night: the set-up goes on where it was', async () => {
   await robot.stop();
   ({ robot, address } = await begin());
   await page.goto('about:blank');
   await page.goto(address);
   await step('exhibits');
-  ensure((await page.locator('.of-exhibit').count()) === 2, 'the exhibits are not there');
+  ensure((await page.locator('.of-exhibit').count()) === 5, 'the exhibits are not there');
   await press('next');
   await step('check');
 });
@@ -227,7 +311,17 @@ await must('the first tour', async () => {
   await shot('done');
   ensure(readFileSync(join(museum, 'setup.yaml'), 'utf8').includes('step: done'), 'setup.yaml does not say so');
 });
-await check('nothing was touched, and both exhibits were explained', async () => {
+await check('visitors see the picture and the link of an exhibit', async () => {
+  await page.goto(new URL('./', address).href.split('#')[0]);
+  await page.locator('[data-exhibit="exhibit-1"]').click({ timeout: 30000 });
+  await page.waitForSelector('.exhibit-card .links a[href="https://example.org/0"]');
+  await until('the picture is shown', () => page.evaluate(() => (document.querySelector('.exhibit-card img.picture')?.naturalWidth ?? 0) === 1600));
+});
+await check('docent check finds no fault in what was made without a line of YAML', () => {
+  const checked = spawnSync(docent, ['check', museum], { encoding: 'utf8' });
+  ensure(checked.status === 0 && checked.stdout.includes('5 exhibits'), checked.stdout + checked.stderr);
+});
+await check('nothing was touched, and all exhibits were explained', async () => {
   await robot.stop();
   const folder = join(state, 'recordings');
   let contacts = 0;
@@ -239,7 +333,7 @@ await check('nothing was touched, and both exhibits were explained', async () =>
     });
   }
   ensure(contacts === 0, `${contacts} contacts`);
-  ensure(explained.size === 2, `explained: ${[...explained].join(', ')}`);
+  ensure(explained.size === 5, `explained: ${[...explained].join(', ')}`);
 });
 await check('no page complained', () => ensure(complaints.every((text) => /WebSocket|Failed to load resource|ERR_CONNECTION/.test(text)), complaints.join('\n')));
 await finish();

@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { answers, browse, build, check, ensure, finish, freePort, pause, pictures, root, start, temporaryFolder, until } from './harness.mjs';
 
-const sizes = [[320, 640], [360, 740], [390, 844], [414, 896], [1400, 900]];
+const sizes = [[320, 640], [360, 740], [390, 844], [414, 896], [700, 450], [768, 1024], [1400, 900]]; // 700: of 1400 at a zoom of 200 %
 const program = join(build, 'tests', 'web_stage', 'docent_web_stage');
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core'), 'utf8');
 
@@ -144,11 +144,14 @@ for (const [width, height] of sizes) {
         ensure(found.length === 0, `${viewers} viewers: ${found.join('; ')}`);
       }
     }
-    await page.locator('.buttons .word', { hasText: 'DE' }).click();
-    await pause(150);
-    const german = await faults(page, bonn.museum);
-    await page.locator('.buttons .word', { hasText: 'EN' }).click();
-    ensure(german.length === 0, `in German: ${german.join('; ')}`);
+    for (const language of ['DE', 'FR']) {
+      await page.locator('.buttons .word', { hasText: language }).click();
+      await pause(150);
+      const found = await faults(page, bonn.museum);
+      await page.screenshot({ path: join(pictures, `size-${width}-${language.toLowerCase()}.png`) });
+      await page.locator('.buttons .word', { hasText: 'EN' }).click();
+      ensure(found.length === 0, `in ${language}: ${found.join('; ')}`);
+    }
     wires(true);
     await page.waitForSelector('[data-connection=lost]');
     await pause(150);
@@ -257,6 +260,43 @@ await check('nothing complains', async () => {
 });
 await page.context().close();
 
+await check('on a phone every name is shown at some zoom', async () => {
+  robot.change = untouched;
+  wires(false);
+  const smithsonian = await stage('smithsonian');
+  for (const width of [360, 414]) {
+    const { page } = await open(smithsonian, { viewport: { width, height: 896 } });
+    await pause(600);
+    const seen = new Set();
+    const look = async () => {
+      await pause(250);
+      const shown = await page.evaluate(() => [...document.querySelectorAll('.exhibit')].filter((one) => {
+        const name = one.querySelector('.name');
+        const box = name.getBoundingClientRect();
+        return getComputedStyle(name).opacity === '1' && box.left >= 0 && box.right <= innerWidth && box.top >= 0 && box.bottom <= innerHeight;
+      }).map((one) => one.dataset.exhibit));
+      for (const id of shown) seen.add(id);
+    };
+    await look();
+    for (const { id } of smithsonian.museum.exhibits) {
+      if (seen.has(id)) continue;
+      await page.getByRole('button', { name: 'Show everything' }).click();
+      await pause(300);
+      // Two fingers on its marker, as it were.
+      const box = await page.locator(`[data-exhibit="${id}"] .disc`).first().boundingBox();
+      await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+      for (let zoom = 0; zoom < 4 && !seen.has(id); ++zoom) {
+        await page.mouse.wheel(0, -300);
+        await look();
+      }
+    }
+    await page.screenshot({ path: join(pictures, `names-${width}.png`) });
+    const missing = smithsonian.museum.exhibits.filter(({ id }) => !seen.has(id)).map(({ id }) => id);
+    ensure(missing.length === 0, `at ${width} px nowhere: ${missing.join(', ')}`);
+    await page.context().close();
+  }
+});
+
 await check('the Smithsonian shows its names', async () => {
   robot.change = untouched;
   wires(false);
@@ -291,17 +331,19 @@ await check('the Smithsonian shows its names', async () => {
 });
 
 await check('the page comes compressed', async () => {
-  let [sent, whole] = [0, 0];
+  let [sent, whole, scripts] = [0, 0, 0];
   const html = await (await fetch(bonn.url)).text();
-  const files = ['', 'api/museum.json', 'icon.svg', ...[...html.matchAll(/(?:src|href)="\/(assets\/[^"]+)"/g)].map((match) => match[1])];
+  const files = ['', 'api/museum.json', 'icon.svg', ...[...html.matchAll(/(?:src|href)="\.?\/(assets\/[^"]+)"/g)].map((match) => match[1])];
   ensure(files.length >= 5, files.join());
   for (const file of files) {
     const reply = await fetch(bonn.url + file, { headers: { 'Accept-Encoding': 'gzip, br' } });
     sent += Number(reply.headers.get('content-length'));
+    if (file.endsWith('.js')) scripts += Number(reply.headers.get('content-length'));
     whole += (await reply.arrayBuffer()).byteLength;
     ensure(reply.headers.get('vary') === 'Accept-Encoding' || reply.headers.get('content-encoding') === null, `${file}: no Vary`);
   }
-  console.log(`        ${(sent / 1000).toFixed(0)} kB for ${(whole / 1000).toFixed(0)} kB`);
+  console.log(`        ${(sent / 1000).toFixed(0)} kB for ${(whole / 1000).toFixed(0)} kB, of which ${(scripts / 1000).toFixed(0)} kB JavaScript`);
+  ensure(scripts > 10_000 && scripts < 150_000, `${scripts} bytes of JavaScript`);
   ensure(sent < 0.45 * whole, `${sent} bytes of ${whole}`);
 });
 

@@ -10,6 +10,7 @@ CALLS = {
     "moderation_queue": "moderator", "judge_post": "moderator", "send_away": "moderator", "statistics": "moderator",
     "list_accounts": "operator", "audit": "operator",
     "read_museum": "operator", "check_museum": "operator", "try_museum": "operator", "end_trial": "operator", "publish_museum": "operator",
+    "keep_picture": "operator", "read_recordings": "operator",
     "read_setup": "operator", "name_museum": "operator", "order_exploration": "operator", "keep_map": "operator", "map_again": "operator",
     "go_to_step": "operator",
     "read_robot": "operator", "send_robot": "operator", "withdraw_goal": "operator",

@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "docent/base/yaml.h"
 #include "docent/geometry/polygon.h"
+#include "docent/museum/museum_reader.h"
 #include "docent/museum/place_yaml.h"
 
 namespace docent::museum {
@@ -99,6 +102,43 @@ class MuseumFields {
 
  private:
   const YamlFile& file_;
+};
+
+/// Texts that lack one of the museum's languages. One that all of them lack is one fault, of the list of languages.
+class MissingTexts {
+ public:
+  /// There is one more text, whatever it lacks.
+  void count() { ++texts_; }
+  void add(const std::string& language, const Error& fault, const MuseumSource& source) {
+    missing_.push_back({language, fault, source.faults.size()});
+  }
+  /// Tells all of them, each at its place among the other faults.
+  /// @param languages  the list of them
+  void tell(const YamlFile& file, const YAML::Node& languages, MuseumSource& source) const {
+    std::map<std::string, std::size_t> lacking;
+    for (const Missing& text : missing_) ++lacking[text.language];
+    std::set<std::string> told;
+    std::size_t moved = 0;  // by those that were inserted already
+    for (const auto& [language, fault, before] : missing_) {
+      const bool is_everywhere = texts_ > 1 && lacking.at(language) == texts_;
+      if (is_everywhere && !told.insert(language).second) continue;
+      const std::size_t place = is_everywhere ? 0 : before + moved;
+      const std::string why = "language '" + language + "' has no text anywhere: write them, or take it out";
+      source.faults.insert(source.faults.begin() + static_cast<std::ptrdiff_t>(place),
+                           is_everywhere ? file.fault(languages, why) : fault);
+      for (std::size_t& index : source.of_no_exhibits) index += index >= place ? 1 : 0;
+      ++moved;
+    }
+  }
+
+ private:
+  struct Missing {
+    std::string language;
+    Error fault;
+    std::size_t before;  ///< so many other faults
+  };
+  std::vector<Missing> missing_;
+  std::size_t texts_ = 0;
 };
 
 }  // namespace docent::museum

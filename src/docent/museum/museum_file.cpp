@@ -67,9 +67,9 @@ MuseumSource read_museum_file(const YamlFile& file, const fs::path& folder, Stag
   if (stage == Stage::being_set_up || !root.IsMap()) return source;
   const YAML::Node exhibits = root["exhibits"];
   if (exhibits.IsDefined() && exhibits.IsSequence() && exhibits.size() == 0) {
-    // That tours name exhibits which are not there follows from this.
-    std::erase_if(source.faults,
-                  [](const Error& fault) { return fault.message.find(": unknown exhibit '") != std::string::npos; });
+    for (auto follows = source.of_no_exhibits.rbegin(); follows != source.of_no_exhibits.rend(); ++follows)
+      source.faults.erase(source.faults.begin() + static_cast<std::ptrdiff_t>(*follows));
+    source.of_no_exhibits.clear();
     source.faults.insert(source.faults.begin(), file.fault(exhibits, "needs at least one exhibit"));
   }
   return source;

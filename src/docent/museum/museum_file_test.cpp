@@ -50,6 +50,45 @@ TEST_F(MuseumFolder, AMuseumWithoutExhibitsHasOneFaultAndNotOneForEachStopOfATou
   EXPECT_NE(faults[0].message.find("needs at least one exhibit"), std::string::npos) << faults[0].message;
 }
 
+/// What follows from a fault is not told beside it.
+TEST_F(MuseumFolder, TheCauseIsToldAndNotWhatFollows) {
+  const auto file = above_ / "bonn" / "museum.yaml";
+  const std::string whole = read_file(file).value();
+  const auto without = [&](const std::string& key, const std::string& next, const std::string& instead) {
+    std::string text = whole;
+    const auto begin = text.find("\n" + key) + 1;
+    return text.replace(begin, text.find("\n" + next) + 1 - begin, instead);
+  };
+  struct Case {
+    std::string yaml, cause;
+  };
+  const std::vector<Case> cases{
+      {without("exhibits:", "modes:", "exhibits: 3\n"), "expected a list of exhibits"},
+      {without("exhibits:", "modes:", ""), "missing key 'exhibits'"},
+      {without("languages:", "map:", "languages: [en, de, french]\n"), "unknown language 'french'"},
+      {without("languages:", "map:", ""), "missing key 'languages'"},
+      {without("languages:", "map:", "languages: [en, de, fr, it]\n"), "language 'it' has no text anywhere"},
+  };
+  for (const Case& one : cases) {
+    ASSERT_TRUE(write_file_atomically(file, one.yaml));
+    const auto faults = check_museum(above_ / "bonn", {});
+    ASSERT_FALSE(faults.empty()) << one.cause;
+    EXPECT_EQ(faults.size(), 1U) << one.cause << ", but also: " << faults.back().message;
+    EXPECT_NE(faults[0].message.find(one.cause), std::string::npos) << faults[0].message;
+  }
+}
+
+TEST_F(MuseumFolder, WhileItIsSetUpATourMustNotNameWhatIsNotThere) {
+  const auto file = above_ / "bonn" / "museum.yaml";
+  std::string text = read_file(file).value();
+  const auto begin = text.find("exhibits:\n");
+  text.replace(begin, text.find("modes:\n") - begin, "exhibits: []\n");
+  ASSERT_TRUE(write_file_atomically(file, text));
+  const auto museum = load_museum(above_ / "bonn", Stage::being_set_up);
+  ASSERT_FALSE(museum);
+  EXPECT_NE(museum.error().message.find("unknown exhibit"), std::string::npos) << museum.error().message;
+}
+
 TEST_F(MuseumFolder, AMisspeltModeIsToldFromThoseThatThereAre) {
   const auto file = above_ / "bonn" / "museum.yaml";
   std::string text = read_file(file).value();

@@ -38,7 +38,10 @@ class MuseumYamlReader : MuseumFields {
       const YAML::Node tours = reader.node("tours");
       const YAML::Node rooms = reader.node("rooms");
       const YAML::Node sound = reader.node("sound");
-      guarded([&] { read_languages(languages); });
+      guarded([&] {
+        read_languages(languages);
+        knows_languages_ = true;
+      });
       guarded([&] { museum_.name = translations(required(file().root(), name, "name"), "name"); });
       std::string map;
       guarded([&] {
@@ -49,8 +52,10 @@ class MuseumYamlReader : MuseumFields {
       read_hazards(hazards);
       guarded([&] { museum_.home = pose(required(file().root(), home, "home")); });
       if (charger.IsDefined()) guarded([&] { museum_.charger = pose(charger); });
-      read_exhibits(required(file().root(), exhibits, "exhibits"));
+      guarded([&] { read_exhibits(required(file().root(), exhibits, "exhibits")); });
+      const std::size_t before = source_.faults.size();
       read_modes(modes);
+      knows_hours_ = source_.faults.size() == before;
       read_list(tours, "tours", &MuseumYamlReader::read_tour);
       read_list(rooms, "rooms", &MuseumYamlReader::read_room);
       guarded([&] { museum_.scene_camera = read_scene_camera(file(), reader); });
@@ -61,6 +66,7 @@ class MuseumYamlReader : MuseumFields {
         if (simulation) museum_.simulation_path = inside_folder(reader.node("simulation"), *simulation);
       });
       guarded([&] { reader.finish(); });
+      missing_.tell(file(), languages, source_);
     });
   }
 
@@ -95,7 +101,7 @@ class MuseumYamlReader : MuseumFields {
   /// Why `value` cannot be the text in `language` beside those in `others`; empty when it can.
   [[nodiscard]] std::string text_fault(const Translations& others, const std::string& language,
                                        const std::string& value) const {
-    if (!knows(language)) return "language '" + language + "' is not one of the museum's";
+    if (knows_languages_ && !knows(language)) return "language '" + language + "' is not one of the museum's";
     if (others.contains(language)) return "language '" + language + "' stands twice";
     if (value.empty()) return "empty in language '" + language + "'";
     if (!is_utf8(value)) return "not valid UTF-8";
@@ -103,7 +109,7 @@ class MuseumYamlReader : MuseumFields {
   }
 
   /// One text in each of the museum's languages.
-  [[nodiscard]] Translations translations(const YAML::Node& node, const std::string& what) const {
+  [[nodiscard]] Translations translations(const YAML::Node& node, const std::string& what) {
     if (!node.IsMap()) throw fault(node, what + ": expected one text a language, such as {en: \"…\"}");
     Translations result;
     for (const auto& entry : node) {
@@ -113,8 +119,10 @@ class MuseumYamlReader : MuseumFields {
       if (!why.empty()) throw about(entry.first, what, why);
       result[language] = value;
     }
+    missing_.count();
     for (const auto& language : museum_.languages) {
-      if (!result.contains(language)) throw about(node, what, "language '" + language + "' is missing");
+      if (knows_languages_ && !result.contains(language))
+        missing_.add(language, about(node, what, "language '" + language + "' is missing").error, source_);
     }
     return result;
   }
@@ -183,9 +191,9 @@ class MuseumYamlReader : MuseumFields {
 
   void read_exhibits(const YAML::Node& node) {
     std::set<std::string> seen;
-    guarded([&] {
-      for (const auto& entry : list(node, "exhibits")) guarded([&] { read_exhibit(entry, seen); });
-    });
+    const auto entries = list(node, "exhibits");
+    knows_exhibits_ = true;
+    for (const auto& entry : entries) guarded([&] { read_exhibit(entry, seen); });
     for (std::size_t i = 0; i < museum_.exhibits.size(); ++i) {
       const Exhibit& exhibit = museum_.exhibits[i];
       const YAML::Node& entry = source_.exhibits[i];
@@ -208,7 +216,7 @@ class MuseumYamlReader : MuseumFields {
     return file;
   }
 
-  [[nodiscard]] Link link(const YAML::Node& node, const std::string& who) const {
+  [[nodiscard]] Link link(const YAML::Node& node, const std::string& who) {
     YamlReader reader{file(), node};
     const YAML::Node title = reader.node("title");
     Link link;
@@ -360,7 +368,7 @@ class MuseumYamlReader : MuseumFields {
     tour.daily = times_of_day(reader.node("daily"), daily, who + ", daily");
     for (const int minute : tour.daily) {
       const std::string mode = mode_at(museum_, minute);
-      if (mode != "open")
+      if (knows_hours_ && mode != "open")
         report(reader.node("daily"), who + ": the museum's hours say " + mode + " at " + clock_text(minute));
       for (const Tour& other : museum_.tours)
         if (std::find(other.daily.begin(), other.daily.end(), minute) != other.daily.end())
@@ -374,7 +382,8 @@ class MuseumYamlReader : MuseumFields {
     for (std::size_t i = 0; i < tour.exhibits.size(); ++i) {
       const Exhibit* exhibit = museum_.find_exhibit(tour.exhibits[i]);
       // An exhibit with a fault of its own is not known here: name that fault only.
-      if (exhibit == nullptr && !named(tour.exhibits[i])) {
+      if (exhibit == nullptr && knows_exhibits_ && !named(tour.exhibits[i])) {
+        if (source_.exhibits.empty()) source_.of_no_exhibits.push_back(source_.faults.size());
         report(exhibits[i], who + ": unknown exhibit '" + tour.exhibits[i] + "'");
       } else if (exhibit != nullptr && exhibit->web_only) {
         report(exhibits[i], who + ": '" + tour.exhibits[i] + "' is for the Web only");
@@ -402,6 +411,9 @@ class MuseumYamlReader : MuseumFields {
   const ReadText& read_text_;
   MuseumSource& source_;
   Museum& museum_;
+  // What else could be told follows from the fault of what is not known.
+  bool knows_languages_ = false, knows_exhibits_ = false, knows_hours_ = false;
+  MissingTexts missing_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ using ReadText = std::function<Result<std::string>(const std::filesystem::path& 
 struct MuseumSource {
   Museum museum;  ///< without its map
   std::vector<Error> faults;
+  std::vector<std::size_t> of_no_exhibits;  ///< those faults that follow from there being no exhibit, rising
   /// Where things stand, for later faults: parallel to museum.exhibits, .hazards, .tours, .rooms.
   std::vector<YAML::Node> exhibits;
   std::vector<YAML::Node> hazards;

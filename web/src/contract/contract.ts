@@ -375,6 +375,16 @@ export interface AccountLine {
 export interface AccountLines {
   accounts: AccountLine[];
 }
+export interface RoomName {
+  id: string;
+  name: Record<string, string>;
+  at: [number, number];
+}
+export interface OpeningHours {
+  open: string[];
+  web: string[];
+  closed: string[];
+}
 export interface MuseumDraft {
   area: [number, number][];
   hazards: Hazard[];
@@ -382,6 +392,8 @@ export interface MuseumDraft {
   charger: [number, number, number] | null;
   exhibits: Exhibit[];
   tours: Tour[];
+  rooms: RoomName[];
+  hours: OpeningHours;
 }
 export interface MuseumEdition {
   revision: string;
@@ -394,6 +406,21 @@ export interface MuseumWish {
 }
 export interface MuseumFaults {
   faults: string[];
+}
+export interface KeptPicture {
+  picture: string;
+  faults: string[];
+}
+export interface Recording {
+  file: string;
+  language: string;
+  text: string;
+  is_recorded: boolean;
+}
+export interface MuseumRecordings {
+  recordings: Recording[];
+  lines: number;
+  strays: string[];
 }
 export interface SetupState {
   step: 'name' | 'map' | 'hazards' | 'exhibits' | 'check' | 'tour' | 'done';
@@ -977,6 +1004,15 @@ export const documents = {
     "maybe": {},
     "type": "hours"
   },
+  "KeptPicture": {
+    "fields": {
+      "faults": {
+        "list": "string"
+      },
+      "picture": "string"
+    },
+    "maybe": {}
+  },
   "LampsMessage": {
     "fields": {
       "lit": {
@@ -1248,6 +1284,14 @@ export const documents = {
           "number"
         ]
       },
+      "hours": {
+        "document": "OpeningHours"
+      },
+      "rooms": {
+        "list": {
+          "document": "RoomName"
+        }
+      },
       "tours": {
         "list": {
           "document": "Tour"
@@ -1274,12 +1318,40 @@ export const documents = {
     },
     "maybe": {}
   },
+  "MuseumRecordings": {
+    "fields": {
+      "lines": "number",
+      "recordings": {
+        "list": {
+          "document": "Recording"
+        }
+      },
+      "strays": {
+        "list": "string"
+      }
+    },
+    "maybe": {}
+  },
   "MuseumWish": {
     "fields": {
       "draft": {
         "document": "MuseumDraft"
       },
       "revision": "string"
+    },
+    "maybe": {}
+  },
+  "OpeningHours": {
+    "fields": {
+      "closed": {
+        "list": "string"
+      },
+      "open": {
+        "list": "string"
+      },
+      "web": {
+        "list": "string"
+      }
     },
     "maybe": {}
   },
@@ -1425,6 +1497,15 @@ export const documents = {
     },
     "maybe": {}
   },
+  "Recording": {
+    "fields": {
+      "file": "string",
+      "is_recorded": "boolean",
+      "language": "string",
+      "text": "string"
+    },
+    "maybe": {}
+  },
   "Refusal": {
     "fields": {
       "id": "string",
@@ -1470,6 +1551,21 @@ export const documents = {
       },
       "next": {
         "list": "string"
+      }
+    },
+    "maybe": {}
+  },
+  "RoomName": {
+    "fields": {
+      "at": {
+        "tuple": [
+          "number",
+          "number"
+        ]
+      },
+      "id": "string",
+      "name": {
+        "map": "string"
       }
     },
     "maybe": {}

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { MuseumDraft, Point } from '../lib/protocol';
-import { addExhibit, addHazard, addTour, addViewpoint, crossesItself, handlesOf, moveAll, moveHandle, remove, removeHandle, renamedExhibit, splitSide, stopsOf, timesOf, withTour } from './draft';
+import { addExhibit, addHazard, addRoom, addTour, addViewpoint, crossesItself, handlesOf, hoursOf, moveAll, moveHandle, remove, removeHandle, renamedExhibit, splitSide, stopsOf, timesOf, withHours, withRoom, withTour } from './draft';
 
 const square: Point[] = [[0, 0], [2, 0], [2, 2], [0, 2]];
 const draft: MuseumDraft = {
@@ -10,6 +10,8 @@ const draft: MuseumDraft = {
   charger: null,
   exhibits: [],
   tours: [],
+  rooms: [],
+  hours: { open: [], web: [], closed: [] },
 };
 const hazard = { kind: 'hazard', index: 0 } as const;
 
@@ -73,4 +75,22 @@ test('times of day are read as people write them, and rise', () => {
   expect(timesOf('16:30, 9.05 9:05')).toEqual(['09:05', '16:30']);
   expect(timesOf('')).toEqual([]);
   for (const wrong of ['2 pm', '24:00', '12:60', '14']) expect(timesOf(wrong)).toBeNull();
+});
+test('a room is named where it is, moved, and taken away', () => {
+  const room = { kind: 'room', index: 0 } as const;
+  let next = addRoom(draft, [2.0004, 3], ['en', 'fr'], 'New room');
+  expect(next.rooms).toEqual([{ id: 'room-1', name: { en: 'New room', fr: 'New room' }, at: [2, 3] }]);
+  const [handle] = handlesOf(next, room);
+  next = moveHandle(next, room, handle, [4, 5]);
+  next = moveAll(next, room, [1, 1]);
+  expect(withRoom(next, 0, { id: 'hall' }).rooms[0]).toMatchObject({ id: 'hall', at: [5, 6] });
+  expect(remove(next, room).rooms).toEqual([]);
+});
+test('hours are read as people write them', () => {
+  expect(hoursOf('13:30-18, 9-12')).toEqual(['09:00-12:00', '13:30-18:00']);
+  expect(hoursOf('22:00 – 6:00')).toEqual(['22:00-06:00']);
+  expect(hoursOf('0-24')).toEqual(['00:00-24:00']);
+  expect(hoursOf('')).toEqual([]);
+  for (const wrong of ['9', '9-25', '9-9', '9:60-10', 'nine-ten', '9-12 13-14']) expect(hoursOf(wrong)).toBeNull();
+  expect(withHours(draft, { web: ['18:00-22:00'] }).hours).toEqual({ open: [], web: ['18:00-22:00'], closed: [] });
 });

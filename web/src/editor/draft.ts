@@ -1,12 +1,12 @@
 // A draft of a museum: handles on its map, and what becomes of it when one of them is moved. Nothing here changes a draft:
 // each function gives a new one. Metres and radians in the map's frame.
-import type { Exhibit, Hazard, MuseumDraft, Point, Pose, Tour } from '../lib/protocol';
+import type { Exhibit, Hazard, MuseumDraft, OpeningHours, Point, Pose, RoomName, Tour } from '../lib/protocol';
 
-export type Selection = { kind: 'area' | 'home' | 'charger' } | { kind: 'hazard' | 'exhibit' | 'tour'; index: number };
+export type Selection = { kind: 'area' | 'home' | 'charger' | 'hours' } | { kind: 'hazard' | 'exhibit' | 'tour' | 'room'; index: number };
 export interface Handle {
   /** Names it among those of what is selected. */
   key: string;
-  kind: 'corner' | 'middle' | 'pose' | 'heading' | 'look' | 'viewpoint';
+  kind: 'corner' | 'middle' | 'pose' | 'heading' | 'look' | 'viewpoint' | 'place';
   at: Point;
   /** Of corners and viewpoints. */
   index: number;
@@ -35,6 +35,8 @@ export function handlesOf(draft: MuseumDraft, selection: Selection): Handle[] {
       { key: `corner:${index}`, kind: 'corner', at: corner, index },
       { key: `middle:${index}`, kind: 'middle', at: middle(corner, corners[(index + 1) % corners.length]), index },
     ]);
+  const room = roomOf(draft, selection);
+  if (room) return [{ key: 'place', kind: 'place', at: room.at, index: -1 }];
   const pose = poseOf(draft, selection);
   if (!pose) return [];
   const handles: Handle[] = [
@@ -51,6 +53,7 @@ export function handlesOf(draft: MuseumDraft, selection: Selection): Handle[] {
   return handles;
 }
 
+export const roomOf = (draft: MuseumDraft, selection: Selection): RoomName | undefined => (selection.kind === 'room' ? draft.rooms[selection.index] : undefined);
 /** Where the robot stands for what is selected. */
 export function poseOf(draft: MuseumDraft, selection: Selection): Pose | null | undefined {
   switch (selection.kind) {
@@ -74,6 +77,9 @@ export function withHazard(draft: MuseumDraft, index: number, change: Partial<Ha
 }
 export function withExhibit(draft: MuseumDraft, index: number, change: Partial<Exhibit>): MuseumDraft {
   return { ...draft, exhibits: draft.exhibits.map((exhibit, i) => (i === index ? { ...exhibit, ...change } : exhibit)) };
+}
+export function withRoom(draft: MuseumDraft, index: number, change: Partial<RoomName>): MuseumDraft {
+  return { ...draft, rooms: draft.rooms.map((room, i) => (i === index ? { ...room, ...change } : room)) };
 }
 /** Tours go on to name an exhibit that is called otherwise now. */
 export function renamedExhibit(draft: MuseumDraft, index: number, id: string): MuseumDraft {
@@ -103,6 +109,7 @@ export function moveHandle(draft: MuseumDraft, selection: Selection, handle: Pic
   const corners = cornersOf(draft, selection);
   if (corners)
     return handle.kind === 'corner' ? withCorners(draft, selection, corners.map((corner, i) => (i === handle.index ? at(to) : corner))) : draft;
+  if (selection.kind === 'room') return withRoom(draft, selection.index, { at: at(to) });
   const pose = poseOf(draft, selection);
   if (!pose) return draft;
   if (handle.kind === 'pose') return withPose(draft, selection, [...to, pose[2]]);
@@ -120,6 +127,8 @@ export function moveAll(draft: MuseumDraft, selection: Selection, by: Point): Mu
   const corners = cornersOf(draft, selection);
   const moved = (point: Point): Point => at([point[0] + by[0], point[1] + by[1]]);
   if (corners) return withCorners(draft, selection, corners.map(moved));
+  const room = roomOf(draft, selection);
+  if (room && selection.kind === 'room') return withRoom(draft, selection.index, { at: moved(room.at) });
   const pose = poseOf(draft, selection);
   return pose ? withPose(draft, selection, [...moved([pose[0], pose[1]]), pose[2]]) : draft;
 }
@@ -148,6 +157,8 @@ export function remove(draft: MuseumDraft, selection: Selection): MuseumDraft {
     }
     case 'tour':
       return { ...draft, tours: draft.tours.filter((_, i) => i !== selection.index) };
+    case 'room':
+      return { ...draft, rooms: draft.rooms.filter((_, i) => i !== selection.index) };
     case 'charger':
       return { ...draft, charger: null };
   }
@@ -200,6 +211,26 @@ export function addTour(draft: MuseumDraft, languages: string[], title: string):
   const tour: Tour = { id: freshId(draft.tours, 'tour'), title: Object.fromEntries(languages.map((language) => [language, title])), exhibits: [], minutes: 15, daily: [] };
   return { ...draft, tours: [...draft.tours, tour] };
 }
+/** The name of a room, or of a part of one, where people say that they are there. */
+export function addRoom(draft: MuseumDraft, place: Point, languages: string[], title: string): MuseumDraft {
+  const room: RoomName = { id: freshId(draft.rooms, 'room'), name: Object.fromEntries(languages.map((language) => [language, title])), at: at(place) };
+  return { ...draft, rooms: [...draft.rooms, room] };
+}
+/** "9-12, 13:30-18:00" → hours as museum.yaml has them, rising; null: one of them is none. */
+export function hoursOf(text: string): string[] | null {
+  const spans = text.split(/[,;]+/).map((one) => one.trim()).filter(Boolean).map((one) => {
+    const parts = /^(\d{1,2})(?:[:.](\d{2}))?\s*[-–]\s*(\d{1,2})(?:[:.](\d{2}))?$/.exec(one);
+    if (!parts) return null;
+    const [from, to] = [[parts[1], parts[2]], [parts[3], parts[4]]].map(([hour, minute]) => ({ hour: +hour, minute: +(minute ?? 0) }));
+    const isEnd = to.hour === 24 && to.minute === 0;
+    if (from.hour > 23 || from.minute > 59 || to.minute > 59 || (to.hour > 23 && !isEnd)) return null;
+    if (from.hour === to.hour && from.minute === to.minute) return null;
+    const written = (time: { hour: number; minute: number }) => `${String(time.hour).padStart(2, '0')}:${String(time.minute).padStart(2, '0')}`;
+    return `${written(from)}-${written(to)}`;
+  });
+  return spans.every((one) => one !== null) ? [...new Set(spans as string[])].sort() : null;
+}
+export const withHours = (draft: MuseumDraft, change: Partial<OpeningHours>): MuseumDraft => ({ ...draft, hours: { ...draft.hours, ...change } });
 /** With these stops; without any it is made up as it goes. */
 export const stopsOf = (exhibits: string[]): Pick<Tour, 'exhibits' | 'minutes'> => ({ exhibits, minutes: exhibits.length > 0 ? null : 15 });
 /** "9:05, 14:00" → times of the day, rising; null: one of them is none. */

@@ -1,24 +1,26 @@
 // The draft at work: what is chosen, what is being drawn, and the way back.
 import type { MuseumDraft, Point, Pose } from '../lib/protocol';
-import { addExhibit, addExhibitBefore, addHazard, addTour, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
+import { addExhibit, addExhibitBefore, addHazard, addRoom, addTour, addViewpoint, handlesOf, moveAll, moveHandle, poseOf, remove, removeHandle, splitSide, type Handle, type Selection } from './draft';
 
-export type Tool = 'choose' | 'hazard' | 'exhibit' | 'viewpoint' | 'charger';
+export type Tool = 'choose' | 'hazard' | 'exhibit' | 'viewpoint' | 'charger' | 'room';
 /** [m] so near to its first corner, a click closes a polygon. */
 const CLOSES = 0.3;
 const MOST_STEPS = 200;
 
 export class Editor {
-  draft = $state.raw<MuseumDraft>({ area: [], hazards: [], home: [0, 0, 0], charger: null, exhibits: [], tours: [] });
+  draft = $state.raw<MuseumDraft>({ area: [], hazards: [], home: [0, 0, 0], charger: null, exhibits: [], tours: [], rooms: [], hours: { open: [], web: [], closed: [] } });
   selection = $state.raw<Selection | null>(null);
   tool = $state<Tool>('choose');
   /** The corners so far of a hazard that is being drawn. */
   drawing = $state.raw<Point[]>([]);
+  /** Pictures that were sent from here, by their files in the museum's folder: where this browser has them. */
+  pictures = $state.raw<Record<string, string>>({});
   private past = $state.raw<MuseumDraft[]>([]);
   private future = $state.raw<MuseumDraft[]>([]);
   private saved = $state.raw<MuseumDraft | null>(null);
 
-  /** @param newTitle of an exhibit that has no name yet */
-  constructor(readonly languages: string[], private readonly newTitle: string) {}
+  /** @param newTitle of an exhibit that has no name yet; `newRoom` likewise of a room */
+  constructor(readonly languages: string[], private readonly newTitle: string, private readonly newRoom: string) {}
 
   load(draft: MuseumDraft): void {
     this.draft = this.saved = draft;
@@ -74,6 +76,7 @@ export class Editor {
     if (chosen?.kind === 'hazard' && !draft.hazards[chosen.index]) this.selection = null;
     if (chosen?.kind === 'exhibit' && !draft.exhibits[chosen.index]) this.selection = null;
     if (chosen?.kind === 'tour' && !draft.tours[chosen.index]) this.selection = null;
+    if (chosen?.kind === 'room' && !draft.rooms[chosen.index]) this.selection = null;
     if (chosen?.kind === 'charger' && !draft.charger) this.selection = null;
   }
 
@@ -98,7 +101,13 @@ export class Editor {
       case 'charger':
         this.change({ ...this.draft, charger: [place[0], place[1], 0] });
         return this.choose({ kind: 'charger' });
+      case 'room':
+        return this.nameRoom(place);
     }
+  }
+  private nameRoom(place: Point): void {
+    this.change(addRoom(this.draft, place, this.languages, this.newRoom));
+    this.choose({ kind: 'room', index: this.draft.rooms.length - 1 });
   }
   newTour(title: string): void {
     this.change(addTour(this.draft, this.languages, title));
@@ -110,13 +119,15 @@ export class Editor {
     this.change(addHazard(this.draft, this.drawing));
     this.choose({ kind: 'hazard', index: this.draft.hazards.length - 1 });
   }
-  /** What the robot stands at: the next corner of a hazard, a new exhibit, or where it shall stand for what is chosen. */
+  /** What the robot stands at: the next corner of a hazard, a new exhibit, a room, or where it shall stand for what is chosen. */
   placeRobot(pose: Pose): void {
     if (this.tool === 'hazard') this.drawing = [...this.drawing, [pose[0], pose[1]]];
     else if (this.tool === 'exhibit') {
       this.change(addExhibitBefore(this.draft, pose, this.languages, this.newTitle));
       this.choose({ kind: 'exhibit', index: this.draft.exhibits.length - 1 });
-    } else if (this.selection && poseOf(this.draft, this.selection)) {
+    } else if (this.tool === 'room') this.nameRoom([pose[0], pose[1]]);
+    else if (this.selection?.kind === 'room') this.change(moveHandle(this.draft, this.selection, { kind: 'place', index: -1 }, [pose[0], pose[1]]));
+    else if (this.selection && poseOf(this.draft, this.selection)) {
       const handle = { kind: 'pose', index: -1 } as const;
       const placed = moveHandle(this.draft, this.selection, handle, [pose[0], pose[1]]);
       this.change(moveHandle(placed, this.selection, { kind: 'heading', index: -1 }, [pose[0] + Math.cos(pose[2]), pose[1] + Math.sin(pose[2])]));

@@ -31,6 +31,7 @@ import type {
   VotesMessage,
   WindowMessage,
 } from './protocol';
+import { parsed } from './french';
 import { decode } from './protocol';
 import { type Asked, cancelOf, choiceOf, requestOf, voteOf, watchOf } from './orders';
 import { keptAs, lineOf } from './site';
@@ -150,7 +151,7 @@ class App {
     if (text === null || text === this.museumText) return text !== null;
     const isFirst = this.museum === null;
     this.museumText = text;
-    this.museum = JSON.parse(text) as Museum;
+    this.museum = parsed(text) as Museum;
     if (isFirst) this.language = pageLanguage(wantedLanguage(), this.museum.languages);
     return true;
   }
@@ -164,6 +165,10 @@ class App {
   }
   t(key: Parameters<typeof word>[1]): string {
     return word(this.language, key);
+  }
+  /** A number as the reader's language writes it: 1.4, 1,4. */
+  number(value: number, places: number): string {
+    return value.toLocaleString(this.language, { minimumFractionDigits: places, maximumFractionDigits: places, useGrouping: false });
   }
   say(texts: Record<string, string> | undefined): string {
     if (!texts) return '';

@@ -23,10 +23,13 @@ export interface Place {
   isFree: boolean;
 }
 
-const MARKER = 20; // half a marker with its rim [px]
+export const MARKER = 20; // half a marker with its rim [px]
+const END = 12; // from its end to below the marker's middle [px]
 const HEIGHT = 17; // of a name as style.css draws it [px]
 
-const meet = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+/** So far to both sides of a point, and up and down. */
+export const around = ([x, y]: number[], wide: number, tall = wide): Box => ({ left: x - wide, top: y - tall, right: x + wide, bottom: y + tall });
+export const meet = (a: Box, b: Box) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
 /**
  * Gives each name in turn the first place beside its marker that covers no marker, none of the `others`, no name before
@@ -43,14 +46,18 @@ export function placeNames(names: Named[], area: Box, others: Box[] = []): Map<s
     const slid = Math.max(area.left, Math.min(area.right - width, x - width / 2));
     const [below, above, beside] = [y + MARKER, y - MARKER - HEIGHT, y - HEIGHT / 2];
     const corners = [[x - width / 2, below], [x - width / 2, above], [x + MARKER, beside], [x - MARKER - width, beside], [slid, below], [slid, above]];
+    // Begun or ended at the marker, it leaves its neighbour room.
+    for (const left of [x - END, x - width + END]) corners.push([left, below], [left, above]);
     const boxes = corners.map(([left, top]) => ({ left, top, right: left + width, bottom: top + HEIGHT }));
+    // A marker beyond the rim has none there: nobody would know whose it is.
+    const isSeen = x >= area.left && x <= area.right && y >= area.top && y <= area.bottom;
     const free = boxes.find(
       (box) =>
-        box.left >= area.left && box.right <= area.right && box.top >= area.top && box.bottom <= area.bottom &&
+        isSeen && box.left >= area.left && box.right <= area.right && box.top >= area.top && box.bottom <= area.bottom &&
         !taken.some((other) => other.id !== id && meet(other.box, box)),
     );
     const box = free ?? boxes[4];
-    if (free || matters) taken.push({ id: '', box });
+    if (free || (matters && isSeen)) taken.push({ id: '', box });
     places.set(id, { dx: box.left - x, dy: box.top - y, isFree: free !== undefined });
   }
   return places;

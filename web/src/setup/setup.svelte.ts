@@ -1,6 +1,6 @@
 // A museum that is being set up: how far it is, as the robot knows it, and what is asked of the robot.
 import { ApiError, call } from '../lib/api';
-import type { MuseumDraft, MuseumEdition, MuseumFaults, SetupOrder, SetupState, SetupWish } from '../lib/protocol';
+import type { KeptPicture, MuseumDraft, MuseumEdition, MuseumFaults, SetupOrder, SetupState, SetupWish } from '../lib/protocol';
 import { app } from '../lib/state.svelte';
 import { desk } from '../operate/desk.svelte';
 import { Editor } from '../editor/editor.svelte';
@@ -53,7 +53,7 @@ class SetupDesk {
   }
   private async readDraft(): Promise<void> {
     this.edition = await call<MuseumEdition>('GET', '/museum');
-    this.editor ??= new Editor(this.state!.languages, editorWords(app.language).newExhibit);
+    this.editor ??= new Editor(this.state!.languages, editorWords(app.language).newExhibit, editorWords(app.language).newRoomName);
     this.editor.load(this.edition.draft);
   }
 
@@ -114,6 +114,12 @@ class SetupDesk {
       if ((before === 'tour' || before === 'done') !== (step === 'tour' || step === 'done')) await this.anew();
       else this.state = { ...this.state!, step };
     });
+  /** undefined: nothing came of it, which the page has said. */
+  send = async (jpeg: string): Promise<KeptPicture | undefined> => {
+    let kept: KeptPicture | undefined;
+    await desk.attempt(async () => void (kept = await call<KeptPicture>('POST', '/museum/picture', { jpeg })));
+    return kept;
+  };
   /** What cannot work in the draft. */
   check = async (draft: MuseumDraft): Promise<string[]> => (await call<MuseumFaults>('POST', '/museum/check', draft)).faults;
 }

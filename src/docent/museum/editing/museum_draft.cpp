@@ -31,7 +31,10 @@ bool is_same_by_id(const std::vector<T>& one, const std::vector<T>& other) {
 }  // namespace
 
 MuseumDraft draft_of(const Museum& museum) {
-  return {museum.area, museum.hazards, museum.home, museum.charger, museum.exhibits, museum.tours};
+  MuseumDraft draft{museum.area,     museum.hazards, museum.home,  museum.charger,
+                    museum.exhibits, museum.tours,   museum.rooms, {}};
+  for (const auto& [name, mode] : museum.modes) draft.hours[name] = mode.hours;
+  return draft;
 }
 
 bool is_same(const Pose2& one, const Pose2& other) {
@@ -68,19 +71,35 @@ bool is_same(const Tour& one, const Tour& other) {
          one.minutes == other.minutes && one.daily == other.daily;
 }
 
+bool is_same(const Room& one, const Room& other) {
+  return one.id == other.id && is_same(one.name, other.name) && is_near(one.at.x, other.at.x) &&
+         is_near(one.at.y, other.at.y);
+}
+
+bool is_same(const ModeHours& one, const ModeHours& other) {
+  return std::all_of(kModes.begin(), kModes.end(), [&](const char* mode) {
+    const auto hours_of = [mode](const ModeHours& all) {
+      const auto place = all.find(mode);
+      return place == all.end() ? std::vector<std::string>{} : place->second;
+    };
+    return hours_of(one) == hours_of(other);
+  });
+}
+
 bool is_same(const Exhibit& one, const Exhibit& other) {
   return one.id == other.id && is_same(one.title, other.title) && is_same(one.pose, other.pose) &&
          is_near(one.look_at.x, other.look_at.x) && is_near(one.look_at.y, other.look_at.y) &&
          is_same(one.viewpoints, other.viewpoints) && is_same(one.short_text, other.short_text) &&
          is_same(one.long_text, other.long_text) && one.topics == other.topics && one.web_only == other.web_only &&
-         is_same(one.links, other.links);
+         one.picture == other.picture && is_same(one.links, other.links);
 }
 
 bool is_same(const MuseumDraft& one, const MuseumDraft& other) {
   if (one.charger.has_value() != other.charger.has_value()) return false;
   return is_same(one.area, other.area) && is_same_by_id(one.hazards, other.hazards) && is_same(one.home, other.home) &&
          (!one.charger || is_same(*one.charger, *other.charger)) && is_same_by_id(one.exhibits, other.exhibits) &&
-         is_same_by_id(one.tours, other.tours);
+         is_same_by_id(one.tours, other.tours) && is_same_by_id(one.rooms, other.rooms) &&
+         is_same(one.hours, other.hours);
 }
 
 }  // namespace docent::museum

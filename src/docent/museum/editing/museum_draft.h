@@ -1,13 +1,18 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "docent/museum/museum.h"
 
 namespace docent::museum {
 
-/// What an editor may change of a museum, as people want it to be. Of exhibits, `picture` and `next` are not looked at.
+/// In which hours which mode holds, by its name (kModes): as parse_hours reads them.
+using ModeHours = std::map<std::string, std::vector<std::string>>;
+
+/// What an editor may change of a museum, as people want it to be. Of exhibits, `next` is not looked at.
 struct MuseumDraft {
   Polygon area;  ///< [m], map
   std::vector<Hazard> hazards;
@@ -15,6 +20,8 @@ struct MuseumDraft {
   std::optional<Pose2> charger;
   std::vector<Exhibit> exhibits;
   std::vector<Tour> tours;
+  std::vector<Room> rooms;
+  ModeHours hours;  ///< a mode that is not named has none
 };
 
 [[nodiscard]] MuseumDraft draft_of(const Museum& museum);
@@ -29,6 +36,8 @@ struct MuseumDraft {
 [[nodiscard]] bool is_same(const std::vector<Link>& one, const std::vector<Link>& other);
 [[nodiscard]] bool is_same(const Exhibit& one, const Exhibit& other);
 [[nodiscard]] bool is_same(const Tour& one, const Tour& other);
+[[nodiscard]] bool is_same(const Room& one, const Room& other);
+[[nodiscard]] bool is_same(const ModeHours& one, const ModeHours& other);
 /// In whatever order.
 [[nodiscard]] bool is_same(const MuseumDraft& one, const MuseumDraft& other);
 

@@ -107,6 +107,8 @@ class Editor {
     edit_list(lines, "hazards", museum.hazards, source_.hazards, draft_.hazards);
     edit_list(lines, "exhibits", museum.exhibits, source_.exhibits, draft_.exhibits);
     edit_list(lines, "tours", museum.tours, source_.tours, draft_.tours);
+    edit_list(lines, "rooms", museum.rooms, source_.rooms, draft_.rooms);
+    if (!is_same(draft_of(museum).hours, draft_.hours)) edit_hours(lines);
     return lines.text();
   }
 
@@ -136,6 +138,13 @@ class Editor {
     YAML::Node tours{YAML::NodeType::Sequence};
     for (const Tour& tour : draft_.tours) tours.push_back(YAML::Load(yaml_of(tour)));
     root["tours"] = tours;
+    YAML::Node rooms{YAML::NodeType::Sequence};
+    for (const Room& room : draft_.rooms) rooms.push_back(YAML::Load(yaml_of(room)));
+    root.remove("rooms");
+    if (!draft_.rooms.empty()) root["rooms"] = rooms;
+    if (!is_same(draft_of(source_.museum).hours, draft_.hours)) {
+      for (const auto& [mode, text] : modes()) root["modes"][mode] = YAML::Load(text);
+    }
     YAML::Emitter emitter;
     emitter << root;
     return std::string{emitter.c_str()} + "\n";
@@ -223,6 +232,8 @@ class Editor {
         {"topics", exhibit.topics.empty() ? Lines{} : value_of(yaml_of(exhibit.topics)),
          !before || before->topics != exhibit.topics},
         {"web_only", exhibit.web_only ? value_of("true") : Lines{}, !before || before->web_only != exhibit.web_only},
+        {"picture", exhibit.picture.empty() ? Lines{} : value_of(quoted(exhibit.picture.generic_string())),
+         !before || before->picture != exhibit.picture},
         {"links",
          exhibit.links.empty() ? Lines{}
                                : value_of(in_brackets(exhibit.links, [](const Link& link) { return yaml_of(link); })),
@@ -232,6 +243,7 @@ class Editor {
 
   Lines new_item(const Hazard& hazard) const { return {yaml_of(hazard)}; }
   Lines new_item(const Tour& tour) const { return {yaml_of(tour)}; }
+  Lines new_item(const Room& room) const { return {yaml_of(room)}; }
   Lines new_item(const Exhibit& exhibit) const {
     Lines lines{"id: " + exhibit.id};
     for (const Field& field : fields_of(exhibit, source_.museum.exhibits.size())) {
@@ -247,7 +259,7 @@ class Editor {
     return item;
   }
 
-  /// A hazard or a tour, which stands on one line.
+  /// A hazard, a tour or a room, which stands on one line.
   template <class T>
   void change_item(YamlLines& lines, YamlLines::Range range, const YAML::Node& node, const T& item,
                    std::size_t /*known*/) {
@@ -290,6 +302,46 @@ class Editor {
     }
   }
 
+  /// What each mode says then: its hours as the draft has them, all else as it is written. Modes of which nothing is
+  /// said are left out.
+  [[nodiscard]] std::map<std::string, std::string> modes() const {
+    std::map<std::string, std::string> texts;
+    const YAML::Node written = root_["modes"];
+    for (const char* mode : kModes) {
+      const YAML::Node before =
+          written.IsDefined() && written.IsMap() ? written[mode] : YAML::Node{YAML::NodeType::Undefined};
+      const auto hours = draft_.hours.find(mode);
+      const bool has_hours = hours != draft_.hours.end() && !hours->second.empty();
+      if (!before.IsDefined() && !has_hours) continue;
+      std::vector<std::string> fields;
+      for (const char* key : {"max_speed", "wait_s"}) {
+        const YAML::Node value =
+            before.IsDefined() && before.IsMap() ? before[key] : YAML::Node{YAML::NodeType::Undefined};
+        if (value.IsDefined() && value.IsScalar()) fields.push_back(std::string{key} + ": " + value.Scalar());
+      }
+      if (has_hours) fields.push_back("hours: " + yaml_of(hours->second));
+      std::string text;
+      for (const std::string& field : fields) text += (text.empty() ? "" : ", ") + field;
+      texts[mode] = "{" + text + "}";
+    }
+    return texts;
+  }
+  void edit_hours(YamlLines& lines) const {
+    const YAML::Node written = root_["modes"];
+    if (!written.IsDefined() || !written.IsMap() || written.size() == 0 || !YamlLines::is_in_lines(written)) {
+      Lines value{""};
+      for (const auto& [mode, text] : modes()) value.push_back("  " + mode + ": " + text);
+      return set(lines, root_, lines.all(), "modes", value);
+    }
+    const ModeHours before = draft_of(source_.museum).hours;
+    for (const auto& [mode, text] : modes()) {
+      const auto hours = draft_.hours.find(mode);
+      const bool has_same =
+          (hours == draft_.hours.end() ? std::vector<std::string>{} : hours->second) == before.at(mode);
+      if (!has_same) set(lines, written, lines.of_key(root_, lines.all(), "modes"), mode.c_str(), value_of(text));
+    }
+  }
+
   const YAML::Node& root_;
   const MuseumSource& source_;
   const MuseumDraft& draft_;
@@ -326,6 +378,10 @@ std::string yaml_of(const Tour& tour) {
   if (!tour.daily.empty())
     text += ", daily: " + in_brackets(tour.daily, [](int minute) { return quoted(clock_text(minute)); });
   return text + "}";
+}
+
+std::string yaml_of(const Room& room) {
+  return "{id: " + room.id + ", name: " + yaml_of(room.name) + ", at: " + yaml_of(room.at) + "}";
 }
 
 std::string yaml_of(const Translations& texts) {

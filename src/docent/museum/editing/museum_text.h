@@ -22,6 +22,7 @@ using FolderFiles = std::map<std::filesystem::path, std::string>;
 [[nodiscard]] std::string yaml_of(const Hazard& hazard);
 [[nodiscard]] std::string yaml_of(const Translations& texts);
 [[nodiscard]] std::string yaml_of(const Tour& tour);
+[[nodiscard]] std::string yaml_of(const Room& room);
 
 struct EditedMuseum {
   FolderFiles files;          ///< those that change

@@ -117,6 +117,66 @@ TEST(MuseumText, ATourAndItsTimesOfDayAreOneLine) {
   EXPECT_NE(edited(draft).find("tours: []\n"), std::string::npos);
 }
 
+TEST(MuseumText, NamesOfRoomsAreLinesOfTheirOwn) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.rooms = {{"west", {{"en", "The west"}, {"de", "Der Westen"}}, {2.0, 3.5}}};
+  const std::string west =
+      std::string{kYaml} + "rooms:\n  - {id: west, name: {de: \"Der Westen\", en: \"The west\"}, at: {x: 2, y: 3.5}}\n";
+  EXPECT_EQ(edited(draft), west);
+  draft = draft_of_yaml(west);
+  draft.rooms[0].at.x = 2.25;
+  EXPECT_EQ(edited(draft, west), with(west, "at: {x: 2, y", "at: {x: 2.25, y"));
+  draft.rooms.clear();
+  EXPECT_NE(edited(draft, west).find("rooms: []\n"), std::string::npos);
+}
+
+TEST(MuseumText, HoursLeaveSpeedsAsTheyAreWritten) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.hours["open"] = {"09:00-18:00"};
+  draft.hours["web"] = {"18:30-21:30", "06:00-08:00"};
+  EXPECT_EQ(edited(draft), std::string{kYaml} +
+                               "modes:\n  open: {hours: [\"09:00-18:00\"]}\n"
+                               "  web: {hours: [\"18:30-21:30\", \"06:00-08:00\"]}\n");
+  const std::string modes = std::string{kYaml} +
+                            "modes:\n  open: {max_speed: 0.6}\n  # at night\n"
+                            "  web: {max_speed: 0.3, wait_s: 20, hours: [\"18:00-22:00\"]}\n";
+  draft = draft_of_yaml(modes);
+  draft.hours["web"].clear();
+  draft.hours["closed"] = {"22:00-06:00"};
+  EXPECT_EQ(edited(draft, modes), with(modes, "web: {max_speed: 0.3, wait_s: 20, hours: [\"18:00-22:00\"]}\n",
+                                       "web: {max_speed: 0.3, wait_s: 20}\n  closed: {hours: [\"22:00-06:00\"]}\n"));
+  draft.hours["open"] = {"nine to five"};
+  const auto result = edit_museum(modes, text_of, draft);
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_FALSE(result->faults.empty());
+}
+
+TEST(MuseumText, HoursAndRoomsOfAFileThatIsNotInLines) {
+  const std::string json =
+      R"({name: {en: "S"}, languages: [en], map: map.yaml, area: [[0, 0], [9, 0], [9, 7]], home: {x: 1, y: 1, heading: 0},)"
+      R"( exhibits: [], modes: {web: {wait_s: 20}}})";
+  MuseumDraft draft = draft_of_yaml(json);
+  draft.hours["web"] = {"18:00-22:00"};
+  draft.rooms = {{"west", {{"en", "The west"}}, {2.0, 3.5}}};
+  const auto file = YamlFile::parse(edited(draft, json), "museum.yaml");
+  ASSERT_TRUE(file);
+  const MuseumSource source = read_museum(*file, text_of);
+  ASSERT_TRUE(source.faults.empty()) << source.faults.front().message;
+  EXPECT_EQ(source.museum.modes.at("web").hours, draft.hours["web"]);
+  EXPECT_EQ(source.museum.modes.at("web").wait_s, 20.0);
+  EXPECT_EQ(source.museum.rooms.size(), 1U);
+}
+
+TEST(MuseumText, APictureIsNamedAndTakenAway) {
+  MuseumDraft draft = draft_of_yaml(kYaml);
+  draft.exhibits[1].picture = "pictures/0123456789abcdef.jpg";
+  const std::string shown =
+      with(kYaml, "    topics: [metal]\n", "    topics: [metal]\n    picture: \"pictures/0123456789abcdef.jpg\"\n");
+  EXPECT_EQ(edited(draft), shown);
+  draft.exhibits[1].picture.clear();
+  EXPECT_EQ(edited(draft, shown), kYaml);
+}
+
 TEST(MuseumText, ATourWithoutStopsOrAtATimeThatIsNoneHasAFault) {
   MuseumDraft draft = draft_of_yaml(kYaml);
   draft.tours[0].exhibits.clear();

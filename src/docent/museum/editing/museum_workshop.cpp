@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOriginal = "original.txt";  // in a trial: whose it is
 constexpr const char* kBefore = "museum.yaml.before";
+constexpr const char* kPictures = "pictures";
+constexpr std::size_t kMostPictures = 200;  // that were sent; a museum of 50 exhibits with some changes
 
 Result<void> failed(const fs::path& path, const std::error_code& why) {
   return fail(path.string() + ": " + why.message());
@@ -168,6 +170,32 @@ Result<MuseumWorkshop::Outcome> MuseumWorkshop::publish(const MuseumDraft& draft
     written = write_file_atomically(published_ / kMuseumFile, museum->second);
   if (!written) return tl::unexpected<Error>(written.error());
   return Outcome{};
+}
+
+Result<fs::path> MuseumWorkshop::keep_picture(const std::string& content, const std::string& ending) const {
+  const fs::path folder = published_ / kPictures;
+  const fs::path relative = fs::path{kPictures} / (revision_of(content) + ending);
+  if (const auto there = read_file(published_ / relative); there && *there == content) return relative;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return tl::unexpected<Error>(failed(folder, error).error());
+  std::vector<fs::path> kept;
+  for (auto entry = fs::directory_iterator{folder, error}; !error && entry != fs::end(entry); entry.increment(error))
+    kept.push_back(entry->path());
+  if (error) return tl::unexpected<Error>(failed(folder, error).error());
+  if (kept.size() >= kMostPictures) {
+    const std::string named =
+        read_file(published_ / kMuseumFile).value_or("") + read_file(published_ / kBefore).value_or("");
+    std::erase_if(kept, [&](const fs::path& picture) {
+      const bool is_shown = named.find(picture.filename().string()) != std::string::npos;
+      return !is_shown && fs::remove(picture, error);
+    });
+    if (kept.size() >= kMostPictures)
+      return fail(folder.string() + ": more than " + std::to_string(kMostPictures) + " pictures");
+  }
+  if (auto written = write_file_atomically(published_ / relative, content); !written)
+    return tl::unexpected<Error>(written.error());
+  return relative;
 }
 
 }  // namespace docent::museum

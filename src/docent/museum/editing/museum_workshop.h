@@ -50,6 +50,10 @@ class MuseumWorkshop {
   [[nodiscard]] Result<Outcome> try_out(const MuseumDraft& draft, const std::string& revision) const;
   /// Writes into the museum's folder. What museum.yaml said before is kept as museum.yaml.before.
   [[nodiscard]] Result<Outcome> publish(const MuseumDraft& draft, const std::string& revision) const;
+  /// Keeps a picture in the museum's folder, where an exhibit of a draft may name it from now on. Its name comes of its
+  /// content. Where there are too many already, those that no museum.yaml names are removed.
+  /// @param ending  ".jpg" @returns its name relative to the folder. Error: it cannot be written, or there are too many
+  [[nodiscard]] Result<std::filesystem::path> keep_picture(const std::string& content, const std::string& ending) const;
 
  private:
   struct Published {

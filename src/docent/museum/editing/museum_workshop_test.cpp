@@ -107,5 +107,48 @@ TEST_F(MuseumWorkshopTest, ATextIsSomethingThatWhoeverComesLateMustNotUndo) {
   EXPECT_EQ(load_museum(root_ / "bonn")->exhibits[0].short_text.at("en"), "Something new.\n");
 }
 
+TEST_F(MuseumWorkshopTest, APictureIsKeptAndShownByTrialAndMuseum) {
+  const auto picture = workshop().keep_picture("not looked at here", ".jpg");
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->parent_path(), "pictures");
+  EXPECT_EQ(*workshop().keep_picture("not looked at here", ".jpg"), *picture) << "the same once more is the same file";
+  const auto before = workshop().read();
+  MuseumDraft draft = draft_of(before->museum);
+  draft.exhibits[0].picture = *picture;
+  ASSERT_TRUE(workshop().try_out(draft, before->revision)->faults.empty());
+  EXPECT_EQ(*read_file(root_ / "trial" / *picture), "not looked at here");
+  ASSERT_TRUE(workshop(root_ / "trial").publish(draft, before->revision)->faults.empty());
+  EXPECT_EQ(load_museum(root_ / "bonn")->exhibits[0].picture, *picture);
+  draft.exhibits[0].picture = "pictures/none.jpg";
+  const auto faults = workshop().check(draft);
+  ASSERT_EQ(faults->size(), 1U);
+  EXPECT_EQ(faults->front(), "pictures/none.jpg does not exist");
+}
+
+TEST_F(MuseumWorkshopTest, PicturesThatNobodyShowsMakeRoom) {
+  const auto shown = workshop().keep_picture("shown", ".jpg");
+  const auto before = workshop().read();
+  MuseumDraft draft = draft_of(before->museum);
+  draft.exhibits[0].picture = *shown;
+  ASSERT_TRUE(workshop().publish(draft, before->revision)->faults.empty());
+  for (int i = 0; i < 250; ++i) ASSERT_TRUE(workshop().keep_picture("picture " + std::to_string(i), ".jpg"));
+  EXPECT_TRUE(fs::exists(root_ / "bonn" / *shown));
+  const auto files = std::distance(fs::directory_iterator{root_ / "bonn" / "pictures"}, fs::directory_iterator{});
+  EXPECT_LE(files, 200);
+  // A folder full of pictures that are shown takes no more.
+  std::string yaml = *read_file(root_ / "bonn" / "museum.yaml");
+  for (const auto& entry : fs::directory_iterator{root_ / "bonn" / "pictures"})
+    yaml += "# " + entry.path().filename().string() + "\n";
+  for (int i = 0; fs::exists(root_ / "bonn" / *shown) && i < 250; ++i) {
+    const auto kept = workshop().keep_picture("more " + std::to_string(i), ".jpg");
+    if (!kept) break;
+    yaml += "# " + kept->filename().string() + "\n";
+    ASSERT_TRUE(write_file_atomically(root_ / "bonn" / "museum.yaml", yaml));
+  }
+  const auto full = workshop().keep_picture("one too many", ".jpg");
+  ASSERT_FALSE(full);
+  EXPECT_NE(full.error().message.find("more than 200 pictures"), std::string::npos) << full.error().message;
+}
+
 }  // namespace
 }  // namespace docent::museum

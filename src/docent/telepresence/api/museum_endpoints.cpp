@@ -1,5 +1,6 @@
 #include "docent/telepresence/api/endpoint.h"
 #include "docent/telepresence/client_message.h"
+#include "docent/telepresence/museum_office/exhibit_picture.h"
 #include "docent/telepresence/museum_office/museum_documents.h"
 #include "docent/telepresence/robot_office/robot_office.h"
 #include "docent/telepresence/setup_office/setup_office.h"
@@ -59,6 +60,25 @@ ApiAnswer<MuseumFaults> publish(ApiCall& call, const MuseumWish& wish) {
 ApiAnswer<MuseumFaults> end_trial(ApiCall& call, const Nothing& /*wish*/) {
   return change(call, false,
                 [](const MuseumOffice& /*office*/) -> Outcome { return museum::MuseumWorkshop::Outcome{}; });
+}
+
+ApiAnswer<documents::KeptPicture> keep_picture(ApiCall& call, const documents::MuseumPicture& wish) {
+  const auto& office = call.services.museum;
+  if (!office) return refuse(ApiFault::not_found, kNoMuseum);
+  const auto picture = exhibit_picture(wish.jpeg);
+  if (!picture) return documents::KeptPicture{"", {picture.error().message}};
+  const auto kept = office->workshop.keep_picture(*picture, ".jpg");
+  if (!kept) return refuse(ApiFault::not_stored, kept.error().message);
+  return documents::KeptPicture{kept->generic_string(), {}};
+}
+
+ApiAnswer<documents::MuseumRecordings> read_recordings(ApiCall& call, const Nothing& /*wish*/) {
+  const auto& office = call.services.museum;
+  if (!office || !office->recordings) return refuse(ApiFault::not_found, kNoMuseum);
+  auto edition = office->workshop.read();
+  if (!edition) return refuse(ApiFault::not_stored, edition.error().message);
+  edition->museum.folder = office->workshop.published();
+  return office->recordings(edition->museum);
 }
 
 // A museum that is being set up.
@@ -173,6 +193,14 @@ std::vector<Endpoint> museum_endpoints() {
           at("PUT", "/museum", Rank::operator_, "publish_museum",
              "Writes a draft into the museum's folder, and has the robot, which stands, work in it"),
           publish),
+      endpoint<documents::MuseumPicture, documents::KeptPicture>(
+          at("POST", "/museum/picture", Rank::operator_, "keep_picture",
+             "Keeps a picture in the museum's folder, which an exhibit of a draft may name then"),
+          keep_picture),
+      endpoint<Nothing, documents::MuseumRecordings>(
+          at("GET", "/museum/recordings", Rank::operator_, "read_recordings",
+             "What people have recorded instead of the voice, and what they may"),
+          read_recordings),
   };
 }
 

@@ -192,6 +192,8 @@ std::string contract_types() {
   types.add<documents::MuseumEdition>();
   types.add<documents::MuseumWish>();
   types.add<documents::MuseumFaults>();
+  types.add<documents::KeptPicture>();
+  types.add<documents::MuseumRecordings>();
   types.add<documents::SetupState>();
   types.add<documents::SetupName>();
   types.add<documents::SetupOrder>();

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kMoves = 0.02;                  // [m/s] and more
 constexpr double kLongestGap = 1.0;              // [s] between two odometries that belong together
-constexpr double kRound = 3.0;                   // [m] round the robot stand those whom it guides
 constexpr double kFastest = 3.0;                 // [m/s] whatever says more has jumped
 constexpr double kOneContact = 1.0;              // [s] what touches again within this time has not let go
 constexpr std::size_t kKnownAnswers = 64;        // more than a screen can have under way
@@ -79,16 +78,17 @@ void CountDesk::see(const docent_msgs::Event& event) {
   if (kind == EventKind::point_reached) counting_.robot[Counted::points] += 1.0;
   if (kind != EventKind::explained) return;
   counting_.robot[Counted::exhibits] += 1.0;
-  counting_.robot[Counted::visitors] += people_near_;
+  counting_.robot[Counted::visitors] += audience_.count();
   const std::string& tour = event.detail;
   if (!tour.empty()) count_stop_of_tour(tour, event.subject, from_message(event.header.stamp));
 }
 
 void CountDesk::count_stop_of_tour(const std::string& tour, const std::string& exhibit, Time stamp) {
-  people_at_stop_ = people_near_;
-  if (stops_ == 0) counting_.robot[Counted::first_stop] += people_near_;
+  const int people = audience_.count();
+  people_at_stop_ = people;
+  if (stops_ == 0) counting_.robot[Counted::first_stop] += people;
   if (tour_began_ == Time{}) tour_began_ = stamp;  // it began before this program
-  counting_.stops.push_back({tour_began_, ++stops_, tour, exhibit, static_cast<int>(people_near_)});
+  counting_.stops.push_back({tour_began_, ++stops_, tour, exhibit, people});
 }
 
 void CountDesk::see(const docent_msgs::Tactile& ring) {
@@ -104,13 +104,6 @@ void CountDesk::answered(const std::string& id, PollQuestion question, PollAnswe
   answers_.push_back(id);
   if (answers_.size() > kKnownAnswers) answers_.pop_front();
   counting_.own[counted_of(question, answer)] += 1.0;
-}
-
-void CountDesk::see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
-  people_near_ = 0.0;
-  if (!map_from_base) return;
-  for (const auto& person : people.people)
-    if (distance(Point2{person.x, person.y}, map_from_base->position()) <= kRound) people_near_ += 1.0;
 }
 
 void CountDesk::see(const docent_msgs::RequestBoard& board) {

@@ -15,6 +15,7 @@
 #include "docent/messages/request_messages.h"
 #include "docent/messages/sensing_messages.h"
 #include "docent/messages/standard_messages.h"
+#include "docent/telepresence/counting/audience.h"
 #include "docent/telepresence/counting/statistics.h"
 #include "docent/telepresence/store/store_queue.h"
 
@@ -39,7 +40,9 @@ class CountDesk {
   void see(const docent_msgs::Event& event);
   void see(const docent_msgs::Tactile& ring);
   /// The newest people, and where the robot is; of visitors those are counted that are round it.
-  void see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base);
+  void see_people(const docent_msgs::People& people, std::optional<Pose2> map_from_base) {
+    audience_.see(people, map_from_base);
+  }
   /// Stores what was counted. @param mode  whose hours these are
   void store(const std::string& mode, Time now);
   [[nodiscard]] const std::string& fault() const { return fault_; }
@@ -66,7 +69,7 @@ class CountDesk {
   std::map<std::string, bool> requests_;  ///< on the board: whether their end is counted
   std::optional<Time> moved_;             ///< stamp of the newest odometry
   std::optional<Pose2> odom_from_base_;
-  double people_near_ = 0.0;
+  Audience audience_;
   double people_at_stop_ = 0.0;  ///< at the newest stop of the tour under way
   int stops_ = 0;                ///< that the tour under way has shown
   Time tour_began_;

@@ -26,6 +26,7 @@ museum::Exhibit exhibit_of(const documents::Exhibit& document) {
   exhibit.long_text = document.long_text;
   exhibit.topics = document.topics;
   exhibit.web_only = document.web_only;
+  exhibit.picture = document.picture;
   for (const documents::Link& link : document.links) exhibit.links.push_back({link.title, link.url});
   return exhibit;
 }
@@ -39,6 +40,11 @@ museum::Tour tour_of(const documents::Tour& document) {
   return tour;
 }
 
+/// @pre mode is one of kModes
+std::vector<std::string>& hours_of(documents::OpeningHours& hours, const std::string& mode) {
+  return mode == "open" ? hours.open : mode == "web" ? hours.web : hours.closed;
+}
+
 }  // namespace
 
 documents::MuseumDraft document_of(const museum::MuseumDraft& draft) {
@@ -47,8 +53,13 @@ documents::MuseumDraft document_of(const museum::MuseumDraft& draft) {
   for (const museum::Hazard& hazard : draft.hazards) document.hazards.push_back(document_of(hazard));
   document.home = document_of(draft.home);
   if (draft.charger) document.charger = document_of(*draft.charger);
-  for (const museum::Exhibit& exhibit : draft.exhibits) document.exhibits.push_back(document_of(exhibit));
+  for (const museum::Exhibit& exhibit : draft.exhibits) {
+    document.exhibits.push_back(document_of(exhibit));
+    document.exhibits.back().picture = exhibit.picture.generic_string();
+  }
   for (const museum::Tour& tour : draft.tours) document.tours.push_back(document_of(tour));
+  for (const museum::Room& room : draft.rooms) document.rooms.push_back({room.id, room.name, {room.at.x, room.at.y}});
+  for (const auto& [mode, hours] : draft.hours) hours_of(document.hours, mode) = hours;
   return document;
 }
 
@@ -61,6 +72,9 @@ museum::MuseumDraft draft_of(const documents::MuseumDraft& document) {
   if (document.charger) draft.charger = pose_of(*document.charger);
   for (const documents::Exhibit& exhibit : document.exhibits) draft.exhibits.push_back(exhibit_of(exhibit));
   for (const documents::Tour& tour : document.tours) draft.tours.push_back(tour_of(tour));
+  for (const documents::RoomName& room : document.rooms)
+    draft.rooms.push_back({room.id, room.name, {room.at[0], room.at[1]}});
+  draft.hours = {{"open", document.hours.open}, {"web", document.hours.web}, {"closed", document.hours.closed}};
   return draft;
 }
 

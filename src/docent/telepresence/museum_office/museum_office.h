@@ -14,6 +14,8 @@ struct MuseumOffice {
   std::function<bool()> is_stopped;
   /// Any thread: all modules shall begin anew, in the trial or in the published museum.
   std::function<void(bool into_trial)> move;
+  /// What people have recorded for the robot of that museum, and what they may; empty: nobody can say.
+  std::function<documents::MuseumRecordings(const museum::Museum& museum)> recordings = {};
 };
 
 [[nodiscard]] documents::MuseumDraft document_of(const museum::MuseumDraft& draft);

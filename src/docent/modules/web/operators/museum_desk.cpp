@@ -4,6 +4,7 @@
 
 #include "docent/messages/conversions.h"
 #include "docent/messages/topics.h"
+#include "docent/modules/web/operators/recording_list.h"
 #include "docent/museum/editing/museum_setup.h"
 
 namespace docent::modules {
@@ -29,7 +30,8 @@ MuseumDesk::MuseumDesk(const ModuleContext& context)
       [this] { return is_stopped_.load(); },
       [this](bool into_trial) {
         bus_.post([this, into_trial] { move_ = Move{into_trial, bus_.now() + kAnswerGoesOut}; });
-      }};
+      },
+      recordings_of};
   office_ = std::make_shared<const telepresence::MuseumOffice>(std::move(office));
   bus_.every(kLookPeriod, [this] { look(); });
 }
