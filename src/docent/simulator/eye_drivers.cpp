@@ -37,7 +37,13 @@ EyeDrivers::EyeDrivers(transport::Bus& bus, const EyeOptions& options, const Rng
       eyes_{with_seed(options.eyes, rng)},
       rng_{rng.stream("noise")},
       up_{eye_of(bus, topics::kCeilingImage, topics::kCeilingInfo, eyes_.told().up, "ceiling_camera")},
-      depth_{eye_of(bus, topics::kDepthImage, topics::kDepthInfo, eyes_.told().depth, "depth_camera")} {}
+      depth_{eye_of(bus, topics::kDepthImage, topics::kDepthInfo, eyes_.told().depth, "depth_camera")},
+      front_{eye_of(bus, topics::kFrontImage, topics::kFrontInfo, eyes_.told().front, "front_camera")} {}
+
+EyeDrivers::Eye& EyeDrivers::which(EyeFault::Eye eye) {
+  if (eye == EyeFault::Eye::front) return front_;
+  return eye == EyeFault::Eye::depth ? depth_ : up_;
+}
 
 EyeDrivers::Eye EyeDrivers::eye_of(transport::Bus& bus, const Topic<sensor_msgs::Image>& images,
                                    const Topic<sensor_msgs::CameraInfo>& infos, const simulator::Eye& told,
@@ -65,7 +71,7 @@ EyeDrivers::Eye EyeDrivers::eye_of(transport::Bus& bus, const Topic<sensor_msgs:
 
 void EyeDrivers::set_fault(const EyeFault& fault, Time now) {
   constexpr double kForEver = 1e9;  // [s]
-  Eye& eye = fault.eye == EyeFault::Eye::depth ? depth_ : up_;
+  Eye& eye = which(fault.eye);
   eye.fault = fault;
   eye.fault_ends = now + seconds(fault.duration > 0.0 ? fault.duration : kForEver);
 }
@@ -76,7 +82,8 @@ bool EyeDrivers::has(const Eye& eye, EyeFault::Kind kind, Time now) {
 
 bool EyeDrivers::is_due(std::uint64_t step) const {
   return (options_.up && step % period_of(options_.up_rate) == 0) ||
-         (options_.depth && step % period_of(options_.depth_rate) == 0);
+         (options_.depth && step % period_of(options_.depth_rate) == 0) ||
+         (options_.front && step % period_of(options_.front_rate) == 0);
 }
 
 void EyeDrivers::look(const Renderer& renderer, Time now, std::uint64_t step, const Pose2& world_from_base) {
@@ -105,6 +112,15 @@ void EyeDrivers::look(const Renderer& renderer, Time now, std::uint64_t step, co
       bytes.push_back(static_cast<std::uint8_t>(depth >> 8U));
     }
     keep(depth_, now, std::move(bytes), "16UC1", 2);
+  }
+  if (options_.front && step % period_of(options_.front_rate) == 0) {
+    if (has(front_, Kind::exposure, now)) glimpse.gain = front_.fault->gain;
+    Rng noise = rng_.stream("front " + moment);
+    const pictures::Image seen = eyes_.look_ahead(renderer, glimpse, noise);
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = 0; i < seen.bytes().size(); ++i)
+      if (i % 4 != 3) bytes.push_back(seen.bytes()[i]);
+    keep(front_, now, std::move(bytes), "rgb8", 3);
   }
 }
 

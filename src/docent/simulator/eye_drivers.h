@@ -17,8 +17,10 @@ namespace docent::simulator {
 struct EyeOptions {
   bool up = false;          ///< one that looks at the ceiling
   bool depth = false;       ///< one that measures how far the floor ahead is
+  bool front = false;       ///< one that sees it in colours
   double up_rate = 2.5;     ///< [Hz], at most 10
   double depth_rate = 5.0;  ///< [Hz], at most 10
+  double front_rate = 2.5;  ///< [Hz], at most 10
   RobotEyesParams eyes{};   ///< what they are like; their seed comes of the run
 };
 
@@ -55,12 +57,13 @@ class EyeDrivers {
   [[nodiscard]] static Eye eye_of(transport::Bus& bus, const Topic<sensor_msgs::Image>& images,
                                   const Topic<sensor_msgs::CameraInfo>& infos, const simulator::Eye& told,
                                   const char* frame);
+  [[nodiscard]] Eye& which(EyeFault::Eye eye);
   void keep(Eye& eye, Time now, std::vector<std::uint8_t> bytes, const char* encoding, std::uint32_t pixel_bytes);
 
   EyeOptions options_;
   RobotEyes eyes_;
   Rng rng_;
-  Eye up_, depth_;
+  Eye up_, depth_, front_;
   std::deque<Waiting> waiting_;
   std::optional<Pose2> last_pose_;
   Time last_look_{};

@@ -64,7 +64,8 @@ struct Bench {
       const auto bytes = topic.type->encode(message.get());
       const std::string_view name{topic.name};
       const bool is_picture = name == topics::kCamera.name || name == topics::kSceneCamera.name ||
-                              name.starts_with("depth_camera/") || name.starts_with("ceiling_camera/");
+                              name.starts_with("depth_camera/") || name.starts_with("front_camera/") ||
+                              name.starts_with("ceiling_camera/");
       std::uint64_t& sum = is_picture ? picture_hash : hash;
       sum = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, sum);
       sum = hash_of(std::to_string(time.nanoseconds) + topic.name, sum);

@@ -55,6 +55,10 @@ Result<simulator::EyeOptions> simulated_eyes(const robot::RobotConfig& config) {
   options.up = ceiling->enabled;
   options.eyes.rig.up_mount = mount_of(ceiling->place);
   options.depth = sight->enabled;
+  const auto things = config.section<modules::ThingsParams>("things");
+  if (!things) return tl::unexpected<Error>(things.error());
+  options.front = things->enabled;
+  options.eyes.rig.front_mount = mount_of(things->place);
   options.eyes.rig.depth_mount = mount_of(sight->place);
   return options;
 }

@@ -60,7 +60,7 @@ Result<simulator::SimulationOptions> simulation_of(const Deployment& deployment,
   }
   auto eyes = simulated_eyes(*config);
   if (!eyes) return tl::unexpected<Error>(eyes.error());
-  if (options.has_cameras || eyes->up || eyes->depth)
+  if (options.has_cameras || eyes->up || eyes->depth || eyes->front)
     simulation.cameras = simulator::CameraOptions{.for_people = options.has_cameras, .eyes = *eyes};
   simulation.charger = place->charger;
   if (options.requests_per_hour >= 0.0) simulation.requests_per_hour = options.requests_per_hour;

@@ -7,7 +7,7 @@
 namespace docent::simulator {
 namespace {
 
-constexpr std::array<const char*, 2> kEyes{"depth", "ceiling"};
+constexpr std::array<const char*, 3> kEyes{"depth", "ceiling", "front"};
 constexpr std::array<const char*, 7> kEyeFaults{"gone", "frozen",   "black",    "upside_down",
                                                 "late", "exposure", "lamps_off"};
 

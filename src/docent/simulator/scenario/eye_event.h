@@ -6,7 +6,7 @@ namespace docent::simulator {
 
 /// Something happens to an eye of the robot, or to the light.
 struct EyeFault {
-  enum class Eye { depth, ceiling };
+  enum class Eye { depth, ceiling, front };
   enum class Kind {
     gone,         ///< no picture at all
     frozen,       ///< the last one again and again, with fresh stamps

@@ -91,7 +91,7 @@ EyeRig told_rig(const RigOptions& options) {
   const CameraMount front_mount{.x = 0.16, .y = 0.05, .z = 1.10, .pan = 0.0, .tilt = degrees(-28.0), .roll = 0.0};
   const CameraMount depth_mount{.x = 0.16, .y = -0.03, .z = 1.05, .pan = 0.0, .tilt = degrees(-30.0), .roll = 0.0};
   return {{scaled(up, options), options.up_mount.value_or(up_mount)},
-          {scaled(front, options), front_mount},
+          {scaled(front, options), options.front_mount.value_or(front_mount)},
           {scaled(depth, options), options.depth_mount.value_or(depth_mount)}};
 }
 

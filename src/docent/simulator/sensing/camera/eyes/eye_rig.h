@@ -21,10 +21,11 @@ struct EyeRig {
 };
 
 struct RigOptions {
-  std::optional<CameraMount> up_mount{}, depth_mount{};  ///< as the robot is told; without: as it was drawn first
-  int width = 320;                                       ///< [pixels] of all pictures
-  int height = 240;                                      ///< [pixels]
-  bool fisheye = false;                                  ///< the upward one is; otherwise a pinhole with distortion
+  std::optional<CameraMount> up_mount{}, depth_mount{},
+      front_mount{};     ///< as the robot is told; without: as it was drawn first
+  int width = 320;       ///< [pixels] of all pictures
+  int height = 240;      ///< [pixels]
+  bool fisheye = false;  ///< the upward one is; otherwise a pinhole with distortion
 };
 
 /// As the drawings of the robot have it and a calibration found it.
