@@ -13,7 +13,7 @@ CALLS = {
     "keep_picture": "operator", "read_recordings": "operator",
     "read_setup": "operator", "name_museum": "operator", "order_exploration": "operator", "keep_map": "operator", "map_again": "operator",
     "go_to_step": "operator",
-    "read_robot": "operator", "send_robot": "operator", "withdraw_goal": "operator",
+    "read_robot": "operator", "send_robot": "operator", "withdraw_goal": "operator", "read_office": "operator", "order_office": "operator",
 }
 # What writes under the caller's name: a visitor whose name an account has taken since may not.
 UNDER_A_NAME = {"begin_thread", "write_post"}

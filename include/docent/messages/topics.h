@@ -59,10 +59,12 @@ inline constexpr Topic<sensor_msgs::CompressedImage> kSceneCamera{"scene_camera/
 /// The same from drivers that do not compress, which then need no topic of a compressed picture.
 inline constexpr Topic<sensor_msgs::Image> kCameraImage{"camera/image", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::Image> kSceneCameraImage{"scene_camera/image", Qos::sensor, 1};
-/// The robot's eyes, which no person looks through: ahead and down, in mm or m of depth, and up at the ceiling. Their
-/// lenses are said beside them.
+/// The robot's eyes, which no person looks through: ahead and down, in mm or m of depth and in colour, and up at the
+/// ceiling. Their lenses are said beside them.
 inline constexpr Topic<sensor_msgs::Image> kDepthImage{"depth_camera/image", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::CameraInfo> kDepthInfo{"depth_camera/camera_info", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::Image> kFrontImage{"front_camera/image", Qos::sensor, 1};
+inline constexpr Topic<sensor_msgs::CameraInfo> kFrontInfo{"front_camera/camera_info", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::Image> kCeilingImage{"ceiling_camera/image", Qos::sensor, 1};
 inline constexpr Topic<sensor_msgs::CameraInfo> kCeilingInfo{"ceiling_camera/camera_info", Qos::sensor, 1};
 inline constexpr Topic<docent_msgs::CameraView> kSceneCameraView{"scene_camera/view", Qos::command, 0, 2.0};
@@ -86,6 +88,7 @@ inline constexpr Topic<geometry_msgs::PoseStamped> kGoalPose{"goal_pose", Qos::c
 inline constexpr Topic<docent_msgs::Exploration> kExploration{"docent/exploration", Qos::state};
 inline constexpr Topic<docent_msgs::ExplorationOrder> kExplorationOrder{"docent/exploration_order", Qos::state};
 inline constexpr Topic<docent_msgs::Calibration> kCalibration{"docent/calibration", Qos::state};
+inline constexpr Topic<docent_msgs::SeenThings> kSeenThings{"docent/seen_things", Qos::state};
 inline constexpr Topic<docent_msgs::PersonBeams> kPersonBeams{"docent/person_beams", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeople{"docent/people", Qos::sensor};
 inline constexpr Topic<docent_msgs::People> kPeopleInOdom{"docent/people_odom", Qos::sensor};
@@ -113,6 +116,9 @@ inline constexpr Topic<docent_msgs::RequestBoard> kRequestBoard{"docent/request_
 inline constexpr Topic<docent_msgs::MissionState> kMissionState{"docent/mission_state", Qos::state};
 inline constexpr Topic<docent_msgs::Task> kTask{"docent/task", Qos::state};
 inline constexpr Topic<docent_msgs::TaskState> kTaskState{"docent/task_state", Qos::state};
+/// An order that comes late is meant no longer: whoever gave it has seen that the robot did not take it.
+inline constexpr Topic<docent_msgs::OfficeOrder> kOfficeOrder{"docent/office_order", Qos::command, 0, 5.0};
+inline constexpr Topic<docent_msgs::OfficeState> kOfficeState{"docent/office_state", Qos::state};
 inline constexpr Topic<docent_msgs::Event> kEvent{"docent/event", Qos::command};
 inline constexpr Topic<docent_msgs::Reaction> kReaction{"docent/reaction", Qos::command};
 inline constexpr Topic<docent_msgs::Gaze> kGaze{"docent/gaze", Qos::sensor};
@@ -170,6 +176,7 @@ void for_each_robot_topic(F&& f) {
   f(kInitialPose), f(kGoalPose), f(kParticleCloud), f(kBeliefPoses), f(kPeopleMarkers), f(kMuseumMarkers);
   f(kHeadCommand), f(kJointStates), f(kDiagnostics), f(kCameraImage), f(kSceneCameraImage);
   f(kDepthImage), f(kDepthInfo), f(kCeilingImage), f(kCeilingInfo), f(kPoseFix);
+  f(kFrontImage), f(kFrontInfo), f(kSeenThings), f(kOfficeOrder), f(kOfficeState);
 }
 /// Calls f(topic) for every topic of the truth.
 template <class F>

@@ -8,6 +8,7 @@
 #include "docent/messages/interaction_messages.h"
 #include "docent/messages/localization_messages.h"
 #include "docent/messages/mission_messages.h"
+#include "docent/messages/office_messages.h"
 #include "docent/messages/operation_messages.h"
 #include "docent/messages/people_messages.h"
 #include "docent/messages/request_messages.h"

@@ -2,16 +2,14 @@
 
 #include "docent/messages/topics.h"
 
-// Topics of docking by the charger's tag, and of the camera that sees it. Who names them includes this header.
+// Topics of docking by the charger's tag. Who names them includes this header.
 // Recordings leave them out: what came of them is in the odometry and the events.
 
 namespace docent {
 namespace topics {
 
-/// Ahead, for the charger's tag; as pictures or as JPEG files.
-inline constexpr Topic<sensor_msgs::Image> kFrontImage{"front_camera/image", Qos::sensor, 1};
+/// Ahead, as JPEG files; as pictures it is kFrontImage.
 inline constexpr Topic<sensor_msgs::CompressedImage> kFrontPicture{"front_camera/image/compressed", Qos::sensor, 1};
-inline constexpr Topic<sensor_msgs::CameraInfo> kFrontInfo{"front_camera/camera_info", Qos::sensor, 1};
 /// Where the charger's tag stands: its middle on the floor, x out of it towards who docks; frame odom.
 inline constexpr Topic<geometry_msgs::PoseWithCovarianceStamped> kDockPose{"docent/dock_pose", Qos::sensor};
 /// To dock at the charger whose contacts are at the pose; without an id: no more.

@@ -38,7 +38,10 @@ void SimulatedMuseum::Impl::play_scenario() {
     }
   }
   std::erase_if(temporary_, [](const Temporary& item) { return item.is_over; });
-  if (!changed) return;
+  if (changed) show_world();
+}
+
+void SimulatedMuseum::Impl::show_world() {
   obstacles_ = Obstacles{world_};
   instruments_.change_world(world_);
   if (cameras_) cameras_->change_world(world_);
@@ -207,7 +210,25 @@ void SimulatedMuseum::Impl::play(const ChargerFault& event) {
 
 void SimulatedMuseum::Impl::play(const EyeFault& event) {
   if (cameras_) cameras_->set_fault(event, time_);
-  offer("eye", event.eye == EyeFault::Eye::depth ? "depth" : "ceiling");
+  constexpr std::array kNames{"depth", "ceiling", "front"};
+  offer("eye", kNames.at(static_cast<std::size_t>(event.eye)));
+}
+
+void SimulatedMuseum::Impl::play(const OfficeEvent& event) {
+  office_.play(event);
+  offer("office", to_text(event.kind));
+}
+
+void SimulatedMuseum::Impl::help_in_office() {
+  auto wanted = office_.step(time_);
+  for (auto& order : wanted.orders) office_orders_.publish(std::move(order));
+  for (auto& press : wanted.presses) buttons_.publish(std::move(press));
+  if (!wanted.takes) return;
+  constexpr double kAtHand = 0.3;  // [m] from where the robot points
+  const auto lies_there = [&](const Solid& solid) {
+    return is_litter(solid) && distance(solid.polygon, *wanted.takes) < kAtHand;
+  };
+  if (std::erase_if(world_.solids, lies_there) > 0) show_world();
 }
 
 void SimulatedMuseum::Impl::play(const OdometryJump& event) {

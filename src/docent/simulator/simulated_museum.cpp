@@ -62,6 +62,8 @@ SimulatedMuseum::Impl::Impl(transport::Bus& robot_bus, transport::Bus& truth_bus
       visitors_{wish_params(), world_.exhibits, world_.tours, rng_.stream("visitors")},
       tactile_(kTactileSegments, 0),
       requests_{robot_bus.publisher(topics::kRequest)},
+      office_orders_{robot_bus.publisher(topics::kOfficeOrder)},
+      buttons_{robot_bus.publisher(topics::kButton)},
       choices_{robot_bus.publisher(topics::kChoice)},
       run_infos_{truth_bus.publisher(topics::kRunInfo)},
       states_{truth_bus.publisher(topics::kTrueState)},
@@ -263,6 +265,7 @@ void SimulatedMuseum::Impl::publish() {
     for (const std::string& id : wishes.offered) offer("request", id);
     for (auto& request : wishes.requests) requests_.publish(std::move(request));
     for (auto& choice : wishes.choices) choices_.publish(std::move(choice));
+    help_in_office();
   }
 }
 
@@ -328,6 +331,7 @@ SimulatedMuseum::SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& trut
   listen(topics::kRequestBoard, [](Impl& impl, const docent_msgs::RequestBoard& board) { impl.see_board(board); });
   listen(topics::kMissionState,
          [](Impl& impl, const docent_msgs::MissionState& mission) { impl.see_mission(mission); });
+  listen(topics::kOfficeState, [](Impl& impl, const docent_msgs::OfficeState& state) { impl.see_office(state); });
   Impl::keep_stepping(impl_);
 }
 

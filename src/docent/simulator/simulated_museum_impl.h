@@ -13,6 +13,7 @@
 #include "docent/simulator/body/obstacles.h"
 #include "docent/simulator/crowd/crowd.h"
 #include "docent/simulator/instruments.h"
+#include "docent/simulator/scenario/office_people.h"
 #include "docent/simulator/simulated_museum.h"
 #include "docent/simulator/steersman.h"
 #include "docent/simulator/visitors.h"
@@ -36,6 +37,7 @@ class SimulatedMuseum::Impl {
   }
   void see_board(const docent_msgs::RequestBoard& board) { visitors_.see_board(board); }
   void see_mission(const docent_msgs::MissionState& mission);
+  void see_office(const docent_msgs::OfficeState& state) { office_.see(state, time_); }
 
   /// Steps when the next step is due, for as long as it lives. A beat of its own would, in wall time, have every sensor
   /// read up to a step late.
@@ -78,6 +80,7 @@ class SimulatedMuseum::Impl {
 
   // scenario_play.cpp: what a scenario does.
   void play_scenario();
+  void show_world();  ///< to everybody, after a change
   void play(const Kidnap& event);
   /// The robot's outline at most so far [m] from a hazard; nullopt: no room.
   [[nodiscard]] std::optional<Pose2> place_near_hazard(double within);
@@ -98,6 +101,8 @@ class SimulatedMuseum::Impl {
   void play(const BatteryChange& event);
   void play(const ChargerFault& event);
   void play(const EyeFault& event);
+  void play(const OfficeEvent& event);
+  void help_in_office();
   void play(const OdometryJump& event);
   void play(const ScannerLie& event);
   void play(const Transport& event);
@@ -133,6 +138,7 @@ class SimulatedMuseum::Impl {
   Instruments instruments_;
   std::optional<Cameras> cameras_;
   WishingVisitors visitors_;
+  OfficePeople office_;
   Battery battery_;
   std::optional<ChargerFault::Kind> charger_fault_;
   double charger_fault_until_ = 0.0;  ///< [s] run time
@@ -158,6 +164,8 @@ class SimulatedMuseum::Impl {
   std::vector<std::uint8_t> tactile_;
   std::vector<std::uint8_t> tactile_now_ = std::vector<std::uint8_t>(kTactileSegments, 0);
   transport::Publisher<docent_msgs::Request> requests_;
+  transport::Publisher<docent_msgs::OfficeOrder> office_orders_;
+  transport::Publisher<docent_msgs::Button> buttons_;
   transport::Publisher<docent_msgs::Choice> choices_;
   transport::Publisher<docent_msgs::RunInfo> run_infos_;
   transport::Publisher<docent_msgs::TrueState> states_;

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr int kLongestSide = 16384;      // [pixels] that an image holds; telephones make 12,000
 constexpr int kLeastSide = 32;           // [pixels] of a picture that shows anything
-constexpr double kFineRegions = 3000.0;  // RegionMergingParams::a_region: a clear bottle is hardly unlike its ground
 constexpr double kPanel = 260.0;         // [points] height of each half of the figure
 
 /// Some systems leave "._NAME.jpg" beside what they copy: no picture.
@@ -79,14 +78,6 @@ pictures::Axes& add_panel(pictures::Figure& figure, const pictures::Image& image
 }
 
 }  // namespace
-
-SeenPicture see(const pictures::Image& picture) {
-  SeenPicture seen;
-  seen.sites = vision::sites_of(picture, std::max(1, std::max(picture.width(), picture.height()) / kSitesAcross));
-  seen.thing = vision::part_from_ground(seen.sites, vision::merge_regions(seen.sites, {.a_region = kFineRegions}));
-  seen.features = vision::features_of(seen.sites, seen.thing);
-  return seen;
-}
 
 Result<pictures::Image> read_picture(const fs::path& path) {
   const auto file = read_file(path);

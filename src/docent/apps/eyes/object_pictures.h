@@ -7,20 +7,13 @@
 #include "docent/base/result.h"
 #include "docent/pictures/figure.h"
 #include "docent/vision/objects/object_book.h"
+#include "docent/vision/objects/seen_picture.h"
 
 namespace docent::apps::objects_command {
 
-/// A picture as the recognizer sees it.
-struct SeenPicture {
-  vision::Sites sites;
-  vision::StandingThing thing;
-  vision::Features features{};
-};
+using vision::see;
+using vision::SeenPicture;
 
-/// Pixels of a picture's longer side that a site spans one of: at this many sites a thing has its features.
-inline constexpr int kSitesAcross = 72;
-
-[[nodiscard]] SeenPicture see(const pictures::Image& picture);
 /// Error: with the file's name; no JPEG, or too small for its features.
 [[nodiscard]] Result<pictures::Image> read_picture(const std::filesystem::path& path);
 

@@ -57,11 +57,13 @@ Result<simulator::EyeOptions> simulated_eyes(const robot::RobotConfig& config) {
   options.eyes.rig.up_mount = mount_of(ceiling->place);
   const auto dock = config.section<modules::DockParams>("dock");
   if (!dock) return tl::unexpected<Error>(dock.error());
-  options.front = dock->enabled;
-  options.eyes.rig.front_mount = mount_of(dock->place);
-  constexpr double kFrontTimes = 1.5;  // 480 pixels across: the tag is seen 1.5 m away
-  options.eyes.rig.front_times = kFrontTimes;
   options.depth = sight->enabled;
+  const auto things = config.section<modules::ThingsParams>("things");
+  if (!things) return tl::unexpected<Error>(things.error());
+  options.front = dock->enabled || things->enabled;
+  options.eyes.rig.front_mount = mount_of(dock->enabled ? dock->place : things->place);
+  constexpr double kFrontTimes = 1.5;  // 480 pixels across: the tag is seen 1.5 m away
+  if (dock->enabled) options.eyes.rig.front_times = kFrontTimes;
   options.eyes.rig.depth_mount = mount_of(sight->place);
   return options;
 }

@@ -78,6 +78,10 @@ void add_logs(CLI::App& command, SimulationRunOptions& run) {
       .add_option("--thing-log", run.thing_log,
                   "CSV file to write: when the stools of a scenario were seen, and when the live map had them")
       ->check(output_file());
+  command
+      .add_option("--office-log", run.office_log,
+                  "CSV file to write: how deliveries and tidying up go, and the things that were seen")
+      ->check(output_file());
   command.add_option("--people-log", run.people_log, "CSV file to write: tracked people beside the true ones")
       ->check(output_file());
 }

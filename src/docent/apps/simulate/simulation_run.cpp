@@ -17,6 +17,7 @@
 #include "docent/evaluation/run_logs/drive_log.h"
 #include "docent/evaluation/run_logs/event_log.h"
 #include "docent/evaluation/run_logs/health_log.h"
+#include "docent/evaluation/run_logs/office_log.h"
 #include "docent/evaluation/run_logs/people_log.h"
 #include "docent/evaluation/run_logs/request_log.h"
 #include "docent/evaluation/run_logs/thing_log.h"
@@ -59,6 +60,7 @@ class SimulationRun::Parts {
       if (!options_.request_log.empty()) requests_.add(topic, time, message);
       if (!options_.people_log.empty()) people_.add(topic, time, message);
       if (!options_.thing_log.empty()) things_.add(topic, time, message);
+      if (!options_.office_log.empty()) office_.add(topic, time, message);
       if (recorder_ && failure_.empty()) {
         if (auto written = recorder_->write(topic, time, message); !written) failure_ = written.error().message;
       }
@@ -292,6 +294,7 @@ class SimulationRun::Parts {
   evaluation::RequestLog requests_;
   evaluation::PeopleLog people_;
   evaluation::ThingLog things_;
+  evaluation::OfficeLog office_;
   SimulationPicture picture_;
   std::map<std::string, std::string> pictures_;  ///< of the cameras, by file name
   std::optional<recording::Recorder> recorder_;
@@ -374,6 +377,9 @@ Result<void> SimulationRun::finish() {
   }
   if (!parts_->options_.thing_log.empty()) {
     if (auto saved = parts_->things_.save(parts_->options_.thing_log); !saved) return saved;
+  }
+  if (!parts_->options_.office_log.empty()) {
+    if (auto saved = parts_->office_.save(parts_->options_.office_log); !saved) return saved;
   }
   if (!parts_->options_.people_log.empty()) {
     if (auto saved = parts_->people_.save(parts_->options_.people_log); !saved) return saved;

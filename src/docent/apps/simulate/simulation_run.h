@@ -39,6 +39,7 @@ struct SimulationRunOptions {
   std::string request_log;       ///< CSV file of requests, explanations and orders of visits; empty: none
   std::string drive_log;         ///< CSV file of how it drives beside what avoid says; empty: none
   std::string travel_times;      ///< CSV file of the ways whose time was learned, also before this run; empty: none
+  std::string office_log;        ///< CSV file of deliveries, tidying up and things seen; empty: none
   std::string thing_log;         ///< CSV file of when things put up were seen, and when the map had them; empty: none
   std::string people_log;        ///< CSV file of tracked people beside the true ones; empty: none
   std::string camera_pictures;   ///< folder for what both cameras saw last; empty: none are simulated

@@ -17,8 +17,8 @@ Result<void> GazeChoiceParams::validate() const {
   if (!(company > 0.0)) return fail("gaze.company must be > 0");
   if (!(loyalty >= 0.0)) return fail("gaze.loyalty must be >= 0");
   if (!(turn_s > 0.0)) return fail("gaze.turn_s must be > 0");
-  for (const double height : {eyes, faces, exhibit})
-    if (!(height > 0.0 && height < 3.0)) return fail("gaze: eyes, faces and exhibit must be > 0 and < 3 m");
+  for (const double height : {eyes, faces, exhibit, on_floor})
+    if (!(height > 0.0 && height < 3.0)) return fail("gaze: eyes, faces, exhibit and on_floor must be > 0 and < 3 m");
   if (!(nearest > 0.0)) return fail("gaze.nearest must be > 0");
   return {};
 }
@@ -39,6 +39,10 @@ LookFor GazeChoice::look_of(const HeadView& view) {
 }
 
 GazeTarget GazeChoice::choose(const HeadView& view, Time now) {
+  if (view.pointed && !view.is_blocked) {
+    last_person_ = 0;
+    return {LookAt::goal, 0, bearing_of(*view.pointed).radians(), tilt_to(*view.pointed, params_.on_floor)};
+  }
   const LookFor look = look_of(view);
   const bool is_driving = view.status == TaskStatus::driving && look != LookFor::nobody;
   const SeenPerson* person = nullptr;

@@ -22,6 +22,7 @@ struct GazeChoiceParams {
   double eyes = 1.35;      ///< [m] > 0, height of the robot's eyes
   double faces = 1.55;     ///< [m] > 0, height of people's faces, children and grown-ups together
   double exhibit = 1.2;    ///< [m] > 0, height of what is shown
+  double on_floor = 0.1;   ///< [m] > 0, height of what lies on the floor
   double nearest = 0.5;    ///< [m] > 0: what is nearer is tilted to as if it were so far away
   template <class V>
   void visit(V& v) {
@@ -34,6 +35,7 @@ struct GazeChoiceParams {
     v("eyes", eyes);
     v("faces", faces);
     v("exhibit", exhibit);
+    v("on_floor", on_floor);
     v("nearest", nearest);
   }
   [[nodiscard]] Result<void> validate() const;
@@ -52,6 +54,7 @@ struct HeadView {
   std::optional<LookFor> look;       ///< what the task under way says; nullopt: nothing, and the status decides
   std::optional<Point2> exhibit;     ///< [m], robot frame: what the task's exhibit shows
   std::optional<Angle> wanted;       ///< robot frame: the direction in which it wants to go, or the heading it turns to
+  std::optional<Point2> pointed{};   ///< [m], robot frame: what lies on the floor and is pointed at
   bool is_blocked = false;           ///< a person stands in its way
   std::span<const SeenPerson> people;
   GazeStrategy company = GazeStrategy::nearest;  ///< whom it looks at while it has nothing to do or attracts people
@@ -68,6 +71,7 @@ struct GazeTarget {
 /// The one place that decides where the robot looks ([Rhino1999] 5.1 (2) and 5.3, [Minerva2000] 6.2 and 6.3,
 /// [Markov1998] 4.3):
 ///
+///   pointed         at what lies on the floor
 ///   blocked         at the person who stands where it wants to go, else in the wanted direction
 ///   driving         at somebody who stands in the way, else as below
 ///   place           at the exhibit

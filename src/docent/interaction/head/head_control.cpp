@@ -43,6 +43,7 @@ HeadView HeadControl::view(const HeadSurroundings& around, Time now) const {
   view.people = around.people;
   if (around.odom_from_base && wanted_ && now - wanted_at_ <= kHeadStaleAfter)
     view.wanted = *wanted_ - around.odom_from_base->theta;
+  if (pointed_ && around.map_from_base) view.pointed = inverse(*around.map_from_base) * *pointed_;
   if (task_.id.empty()) return view;
   view.task = task_.kind;
   if (state_.id == task_.id) view.status = state_.status;

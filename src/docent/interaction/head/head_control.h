@@ -67,6 +67,8 @@ class HeadControl {
   void unblock(Time now) { blocked_until_ = now; }
   /// The heading in odometry's frame that it wants to go or turn to; nullopt: none.
   void want(std::optional<Angle> heading, Time now);
+  /// What lies on the floor there [m], map, is pointed at; nullopt: nothing is.
+  void point_at(std::optional<Point2> in_map) { pointed_ = in_map; }
   /// A line that is spoken; false: nothing is.
   void speech(bool is_speaking, Time start, double duration_s);
 
@@ -86,6 +88,7 @@ class HeadControl {
   Time blocked_until_{};
   std::optional<Angle> wanted_;
   Time wanted_at_{};
+  std::optional<Point2> pointed_;  ///< [m], map
   std::optional<Time> speech_end_;
 };
 

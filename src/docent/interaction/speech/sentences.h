@@ -47,6 +47,16 @@ enum class Sentence {
   next_exhibit,    ///< in a tour: {title} comes next
   farewell,        ///< when a tour is over
   help,            ///< what the robot is and how one asks it for something ([Rhino1999] 5.1 (1))
+  // spoken in an office, and to whoever speaks to it
+  office_delivery,       ///< with something for {title}, where it has come to
+  office_put_in,         ///< before what it points at
+  office_thanks,         ///< when somebody has done what it asked for
+  office_empty,          ///< when its bin is to be emptied
+  office_tidy,           ///< when it has seen all of the floor
+  office_bin_full,       ///< when nobody has emptied it
+  office_no_way,         ///< to {title}, to which it had something to bring
+  voice_perhaps,         ///< when it has perhaps understood {title}: it asks back
+  voice_not_understood,  ///< when somebody has said something that is no command
   // spoken to attract people, from friendly to upset ([Minerva2000] Fig. 15)
   attract_invitation,  ///< "Come over"
   attract_question,    ///< "Do you like robots?"

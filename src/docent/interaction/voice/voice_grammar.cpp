@@ -33,7 +33,8 @@ std::string joined(const std::vector<std::string>& words, const std::map<std::st
 }  // namespace
 
 const char* to_text(VoiceCommand::Kind kind) {
-  constexpr std::array<const char*, 6> kWords{"exhibit", "tour", "room", "more", "next", "end_tour"};
+  constexpr std::array<const char*, 9> kWords{"exhibit",  "tour",    "room", "more",   "next",
+                                              "end_tour", "deliver", "tidy", "confirm"};
   return kWords.at(static_cast<std::size_t>(kind));
 }
 
@@ -74,15 +75,20 @@ VoiceGrammar::VoiceGrammar(const museum::Museum& museum) {
   constexpr const char* kLanguage = "en";
   const std::vector<std::string> to{"take me to", "show me", "go to", "drive to", "I would like to see"};
   const std::vector<std::string> on_tour{"start the tour", "give me the tour", "show me the tour", "take the tour"};
+  const std::vector<std::string> bring{"bring this to", "deliver this to"};
   add({"tell me more", "more"}, "", {Kind::more, ""});
   add({"go on", "next"}, "", {Kind::next, ""});
   add({"end the tour", "stop the tour"}, "", {Kind::end_tour, ""});
+  add({"tidy up", "clean up"}, "", {Kind::tidy, ""});
+  add({"it is done", "that is done"}, "", {Kind::confirm, ""});
   for (const museum::Exhibit& exhibit : museum.exhibits)
     if (!exhibit.web_only) add(to, museum::translated(exhibit.title, kLanguage), {Kind::exhibit, exhibit.id});
   for (const museum::Tour& tour : museum.tours)
     add(on_tour, museum::translated(tour.title, kLanguage), {Kind::tour, tour.id});
-  for (const museum::Room& room : museum.rooms)
+  for (const museum::Room& room : museum.rooms) {
     add(to, museum::translated(room.name, kLanguage), {Kind::room, room.id});
+    add(bring, museum::translated(room.name, kLanguage), {Kind::deliver, room.id});
+  }
 }
 
 std::vector<std::string> VoiceGrammar::words() const {

@@ -12,7 +12,7 @@ namespace docent::interaction {
 
 /// What somebody wants by voice.
 struct VoiceCommand {
-  enum class Kind { exhibit, tour, room, more, next, end_tour };
+  enum class Kind { exhibit, tour, room, more, next, end_tour, deliver, tidy, confirm };
   Kind kind = Kind::exhibit;
   std::string target;  ///< id of the exhibit, tour or room; else empty
   friend bool operator==(const VoiceCommand&, const VoiceCommand&) = default;
@@ -22,7 +22,8 @@ struct VoiceCommand {
 /// Words as they are said: small letters and digits, everything else parts them. UTF-8 letters beyond ASCII stay.
 [[nodiscard]] std::vector<std::string> said_words(std::string_view title);
 
-/// The commands that a museum's visitors may speak ([Buhmann1995] 4: a robot that was told by voice), in English.
+/// The commands that visitors, and people in an office, may speak ([Buhmann1995] 4: a robot that was told by voice), in
+/// English.
 class VoiceGrammar {
  public:
   /// Exhibits that the robot drives to, tours and rooms by their English names. O(names).

@@ -21,6 +21,15 @@ struct VoiceParams {
   double grammar_weight = 3.0;  ///< of the grammar against the sound; 1 hears short commands in long ones
   double longest_s = 30.0;      ///< [s] of an utterance; what is longer is no command
   double shortest_s = 0.3;      ///< [s] likewise
+  template <class V>
+  void visit(V& v) {
+    v("model", model);
+    v("acts_above", acts_above);
+    v("asks_above", asks_above);
+    v("grammar_weight", grammar_weight);
+    v("longest_s", longest_s);
+    v("shortest_s", shortest_s);
+  }
 };
 
 /// One utterance, as it was heard.

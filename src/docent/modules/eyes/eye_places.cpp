@@ -63,6 +63,14 @@ Result<void> SightParams::validate() const {
   return sight().validate();
 }
 
+Result<void> ThingsParams::validate() const {
+  if (auto valid = place.validate(); !valid) return valid;
+  if (enabled && !(place.tilt < 0.0)) return fail("place.tilt must be below 0: it looks at the floor");
+  if (!(turning > 0.0)) return fail("turning must be > 0");
+  if (auto valid = floor.validate(); !valid) return valid;
+  return map.validate();
+}
+
 vision::DepthSightParams SightParams::sight() const {
   vision::DepthSightParams params;
   params.heights.low = low;

@@ -5,6 +5,8 @@
 #include "docent/base/result.h"
 #include "docent/vision/ceiling/ceiling_camera.h"
 #include "docent/vision/depth/depth_sight.h"
+#include "docent/vision/things/floor_things.h"
+#include "docent/vision/things/thing_map.h"
 
 namespace docent::modules {
 
@@ -65,6 +67,28 @@ struct SightParams {
   }
   [[nodiscard]] Result<void> validate() const;
   [[nodiscard]] vision::DepthSightParams sight() const;
+};
+
+/// Section `things`: a colour camera that looks at the floor ahead, beside the depth camera of `sight`.
+struct ThingsParams {
+  bool enabled = false;                               ///< the robot has one, and knows things by it
+  EyePlace place{0.16, 0.05, 1.10, 0.0, -28.0, 0.0};  ///< of the camera
+  std::string book;      ///< file of `docent learn-objects`; "": objects.json in the museum's folder
+  std::string keep;      ///< folder into which a picture of each look at a thing is put, to teach by; "": none is kept
+  double turning = 0.5;  ///< [rad/s] > 0: while the robot turns faster, pictures are not looked at
+  vision::FloorThingParams floor;  ///< what stands out of the floor
+  vision::ThingMapParams map;      ///< what several looks make of it
+  template <class V>
+  void visit(V& v) {
+    v("enabled", enabled);
+    v("place", place);
+    v("book", book);
+    v("keep", keep);
+    v("turning", turning);
+    v("floor", floor);
+    v("map", map);
+  }
+  [[nodiscard]] Result<void> validate() const;
 };
 
 }  // namespace docent::modules

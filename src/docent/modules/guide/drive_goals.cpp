@@ -17,7 +17,8 @@ TagDock::TagDock(transport::Bus& bus) : bus_{bus}, orders_{bus.publisher(topics:
 
 void TagDock::tick(task_control::Executive& executive) {
   const bool is_silent = heard_at_ == Time{} || bus_.now() - heard_at_ > kSilent;
-  const auto state = is_silent ? std::nullopt : parse<GoalStatus>(heard_.state);
+  std::optional<GoalStatus> state;
+  if (!is_silent) state = parse<GoalStatus>(heard_.state);
   const bool is_of_order = !ordered_.empty() && heard_.id == ordered_;
   ByTag by_tag = ByTag::none;
   if (is_of_order && state)

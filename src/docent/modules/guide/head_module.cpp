@@ -74,6 +74,9 @@ class HeadModule final : public Module {
       const bool is_none = parse<GazeAt>(gaze.at).value_or(GazeAt::none) == GazeAt::none;
       head_.want(is_none ? std::nullopt : std::optional{Angle::radians(gaze.heading)}, bus_.now());
     });
+    bus_.subscribe<docent_msgs::OfficeState>(topics::kOfficeState, [this](const auto& office) {
+      head_.point_at(office.points ? std::optional{Point2{office.x, office.y}} : std::nullopt);
+    });
     bus_.subscribe<docent_msgs::SpeechState>(topics::kSpeechState, [this](const auto& speech) {
       head_.speech(parse<SpeechStatus>(speech.state) == SpeechStatus::speaking, from_message(speech.start),
                    speech.duration);

@@ -14,11 +14,14 @@
 #include "docent/modules/eyes/ceiling_module.h"
 #include "docent/modules/eyes/dock_module.h"
 #include "docent/modules/eyes/sight_module.h"
+#include "docent/modules/eyes/things_module.h"
 #include "docent/modules/guide/buttons_module.h"
 #include "docent/modules/guide/executive_module.h"
 #include "docent/modules/guide/head_module.h"
 #include "docent/modules/guide/mission_module.h"
 #include "docent/modules/guide/sound_module.h"
+#include "docent/modules/office/office_module.h"
+#include "docent/modules/office/voice_module.h"
 #include "docent/modules/perception/calibrate_module.h"
 #include "docent/modules/perception/localize_module.h"
 #include "docent/modules/perception/map_module.h"
@@ -40,12 +43,15 @@ constexpr std::array kModules{
     ModuleEntry{.name = "ceiling", .make = make_ceiling, .parameters = parameters_of_ceiling},
     ModuleEntry{.name = "sight", .make = make_sight, .parameters = parameters_of_sight, .is_prompt = true, .explores = true, .marks = true},
     ModuleEntry{.name = "dock", .make = make_dock, .parameters = parameters_of_dock, .is_prompt = true},
+    ModuleEntry{.name = "things", .make = make_things, .parameters = parameters_of_things},
     ModuleEntry{.name = "plan", .make = make_plan, .parameters = parameters_of_plan},
     ModuleEntry{.name = "record", .make = make_record, .parameters = parameters_of_record, .is_prompt = true, .sees_truth = true, .explores = true, .marks = true},
     ModuleEntry{.name = "robot", .make = make_robot, .parameters = parameters_of_robot, .is_urgent = true, .explores = true, .marks = true},
     ModuleEntry{.name = "sound", .make = make_sound, .parameters = parameters_of_sound},
     ModuleEntry{.name = "buttons", .make = make_buttons, .parameters = parameters_of_buttons},
     ModuleEntry{.name = "mission", .make = make_mission, .parameters = parameters_of_mission},
+    ModuleEntry{.name = "office", .make = make_office, .parameters = parameters_of_office},
+    ModuleEntry{.name = "voice", .make = make_voice, .parameters = parameters_of_voice},
     ModuleEntry{.name = "executive", .make = make_executive, .parameters = parameters_of_executive},
     ModuleEntry{.name = "web", .make = make_web, .parameters = parameters_of_web, .explores = true, .marks = true},
     ModuleEntry{.name = "visualize", .make = make_visualize, .parameters = parameters_of_visualize, .explores = true, .marks = true},

@@ -91,10 +91,11 @@ class EventReader {
     if (kind == "transport") return read_transport(file_, body);
     if (kind == "charger") return read_charger(file_, body);
     if (kind == "eye") return read_eye_fault(file_, body);
+    if (kind == "office") return read_office_event(file_, body);
     fault(kind_at_, "unknown kind '" + kind +
                         "' (known: kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, "
                         "steering, lasers, request, answers, battery, kill, second_mode, odometry_jump, lie, "
-                        "transport, charger, eye)");
+                        "transport, charger, eye, office)");
   }
 
   [[nodiscard]] double number(const YAML::Node& node, double low, double high) const {
@@ -414,9 +415,8 @@ Result<Scenario> read_scenario(const YamlFile& file) {
     if (!root.IsMap()) throw YamlFault{file.fault(root, "expected a mapping with 'events'")};
     for (const auto& entry : root) {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      if (key == "build")
-        scenario.build = read_build_errors(file, entry.second);
-      else if (key != "events")
+      if (key == "build") scenario.build = read_build_errors(file, entry.second);
+      if (key != "build" && key != "events")
         throw YamlFault{file.fault(entry.first, "unknown key '" + key + "' (known: build, events)")};
     }
     const YAML::Node events = root["events"];

@@ -12,6 +12,7 @@
 #include "docent/simulator/scenario/build_errors.h"
 #include "docent/simulator/scenario/charger_event.h"
 #include "docent/simulator/scenario/eye_event.h"
+#include "docent/simulator/scenario/office_event.h"
 #include "docent/simulator/scenario/transport_event.h"
 #include "docent/vocabulary/vocabulary.h"
 
@@ -170,7 +171,7 @@ struct ScenarioEvent {
   double at = 0.0;  ///< [s] since the start: not before
   std::variant<Kidnap, SensorFault, Stool, ClosedPassage, PoseError, Visitors, Pushers, Runners, Escort, Steering,
                LaserReach, Wish, Answers, BatteryChange, Kill, SecondMode, OdometryJump, ScannerLie, Transport,
-               ChargerFault, EyeFault>
+               ChargerFault, EyeFault, OfficeEvent>
       what;
   std::optional<Moment> during{};  ///< without: at its time
 };
@@ -184,7 +185,7 @@ struct Scenario {
 
 /// Reads `build:` (see read_build_errors), which may be left out, and `events:`, a list of `{at: SECONDS, KIND: {...}}`
 /// with KIND one of kidnap, fault, stool, closed, pose_error, visitors, pushers, runners, escort, steering, lasers,
-/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger, eye.
+/// request, answers, battery, kill, second_mode, odometry_jump, lie, transport, charger, eye, office.
 /// With `during: PHASE` it waits for that
 /// phase of the mission, with `after: SECONDS` until the phase has lasted so long. Error: "FILE:LINE: ...".
 [[nodiscard]] Result<Scenario> load_scenario(const std::filesystem::path& path);

@@ -159,6 +159,20 @@ ApiAnswer<Nothing> withdraw_goal(ApiCall& call, const Nothing& /*wish*/) {
   return Nothing{};
 }
 
+ApiAnswer<documents::OfficeReport> read_office(ApiCall& call, const Nothing& /*wish*/) {
+  const auto& office = call.services.robot;
+  if (!office) return refuse(ApiFault::not_found, kNoRobot);
+  return office->report();
+}
+
+ApiAnswer<Nothing> order_office(ApiCall& call, const documents::OfficeWish& wish) {
+  const auto& office = call.services.robot;
+  if (!office) return refuse(ApiFault::not_found, kNoRobot);
+  if (std::string fault = fault_of(wish); !fault.empty()) return refuse(ApiFault::not_understood, std::move(fault));
+  office->order(wish);
+  return Nothing{};
+}
+
 }  // namespace
 
 std::vector<Endpoint> robot_endpoints() {
@@ -174,6 +188,11 @@ std::vector<Endpoint> robot_endpoints() {
       endpoint<Nothing, Nothing>(
           row("DELETE", "/robot/goal/{goal}", "withdraw_goal", "Takes that back: the robot does not go there any more"),
           withdraw_goal),
+      endpoint<Nothing, documents::OfficeReport>(
+          row("GET", "/robot/office", "read_office", "How a delivery or the tidying up goes"), read_office),
+      endpoint<documents::OfficeWish, Nothing>(
+          row("PUT", "/robot/office", "order_office", "Has the robot bring something to a room, or tidy up"),
+          order_office),
   };
 }
 

@@ -54,4 +54,36 @@ struct RobotGoal {
   }
 };
 
+/// What it shall do in an office.
+struct OfficeWish {
+  static constexpr const char* kName = "OfficeWish";
+  std::string id;    ///< a UUID of version 7, made by the caller: the same again is the same order
+  std::string kind;  ///< deliver, tidy, confirm, stop
+  std::string room;  ///< for deliver: its id; for tidy: one room, or empty for all
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("id", d.id), v("kind", d.kind), v("room", d.room);
+  }
+};
+
+/// How that goes.
+struct OfficeReport {
+  static constexpr const char* kName = "OfficeReport";
+  std::string id;    ///< of the order; empty: there was none yet
+  std::string kind;  ///< of it
+  std::string
+      phase;  ///< idle, driving, handing_over, looking, approaching, checking, asking, to_bin, emptying, done, failed
+  std::string room;    ///< of it
+  std::string reason;  ///< why it failed, in English
+  int found = 0;       ///< things to tidy up that it was sure of
+  int picked_up = 0;   ///< of these somebody has put into its bin
+  int left = 0;        ///< nobody has
+  int in_bin = 0;      ///< now
+  template <class Self, class V>
+  static void visit(Self& d, V& v) {
+    v("id", d.id), v("kind", d.kind), v("phase", d.phase), v("room", d.room), v("reason", d.reason),
+        v("found", d.found), v("picked_up", d.picked_up), v("left", d.left), v("in_bin", d.in_bin);
+  }
+};
+
 }  // namespace docent::telepresence::documents

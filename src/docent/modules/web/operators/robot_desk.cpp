@@ -27,7 +27,8 @@ docent_msgs::Request request_of(std::string id, RequestKind kind, std::string ta
 
 }  // namespace
 
-RobotDesk::RobotDesk(transport::Bus& bus) : bus_{bus}, requests_{bus.publisher(topics::kRequest)} {
+RobotDesk::RobotDesk(transport::Bus& bus)
+    : bus_{bus}, requests_{bus.publisher(topics::kRequest)}, orders_{bus.publisher(topics::kOfficeOrder)} {
   telepresence::RobotOffice office;
   office.state = [this] {
     const std::scoped_lock lock{mutex_};
@@ -38,6 +39,13 @@ RobotDesk::RobotDesk(transport::Bus& bus) : bus_{bus}, requests_{bus.publisher(t
   };
   office.cancel = [this](const std::string& goal) {
     bus_.post([this, goal] { tell(request_of(telepresence::withdrawal_id(goal), RequestKind::cancel, goal)); });
+  };
+  office.order = [this](const telepresence::documents::OfficeWish& wish) {
+    bus_.post([this, wish] { orders_.publish({wish.id, wish.kind, wish.room, to_text(RequestSource::staff)}); });
+  };
+  office.report = [this] {
+    const std::scoped_lock lock{mutex_};
+    return report_;
   };
   office_ = std::make_shared<const telepresence::RobotOffice>(std::move(office));
   subscribe();
@@ -53,6 +61,18 @@ void RobotDesk::subscribe() {
   bus_.subscribe<docent_msgs::MissionState>(topics::kMissionState, [this](const auto& mission) {
     const std::scoped_lock lock{mutex_};
     state_.phase = mission.phase;
+  });
+  bus_.subscribe<docent_msgs::OfficeState>(topics::kOfficeState, [this](const auto& state) {
+    const std::scoped_lock lock{mutex_};
+    report_ = {state.order,
+               state.kind,
+               state.phase,
+               state.room,
+               state.reason,
+               static_cast<int>(state.found),
+               static_cast<int>(state.picked_up),
+               static_cast<int>(state.left),
+               static_cast<int>(state.in_bin)};
   });
   bus_.subscribe<docent_msgs::GoalState>(topics::kGoalState, [this](const auto& goal) {
     const std::scoped_lock lock{mutex_};

@@ -6,6 +6,7 @@
 
 #include "docent/geometry/pose2.h"
 #include "docent/messages/mission_messages.h"
+#include "docent/messages/office_messages.h"
 #include "docent/messages/standard_messages.h"
 #include "docent/telepresence/documents.h"
 #include "docent/telepresence/robot_office/robot_office.h"
@@ -32,8 +33,10 @@ class RobotDesk {
 
   transport::Bus& bus_;
   transport::Publisher<docent_msgs::Request> requests_;
+  transport::Publisher<docent_msgs::OfficeOrder> orders_;
   std::mutex mutex_;
-  telepresence::documents::RobotState state_;  ///< guarded by mutex_
+  telepresence::documents::RobotState state_;     ///< guarded by mutex_
+  telepresence::documents::OfficeReport report_;  ///< likewise
   std::shared_ptr<const telepresence::RobotOffice> office_;
 };
 

@@ -49,6 +49,25 @@ TEST_F(ARobotDesk, SendsTheRobotByARequestOfTheStaff) {
   EXPECT_EQ(heard_[1].id, heard_[2].id) << "said twice it is the same withdrawal";
 }
 
+TEST_F(ARobotDesk, GivesAnOfficesOrdersOnAndTellsHowTheyGo) {
+  std::vector<docent_msgs::OfficeOrder> orders;
+  robot_->subscribe<docent_msgs::OfficeOrder>(topics::kOfficeOrder,
+                                              [&](const auto& order) { orders.push_back(order); });
+  ask([](const auto& office) { office.order({kGoal, "deliver", "kitchen"}); });
+  ASSERT_EQ(orders.size(), 1U);
+  EXPECT_EQ(orders[0].id, kGoal);
+  EXPECT_EQ(orders[0].kind, "deliver");
+  EXPECT_EQ(orders[0].room, "kitchen");
+  EXPECT_EQ(orders[0].source, "staff");
+  EXPECT_EQ(desk_.office()->report().phase, "");
+  docent_msgs::OfficeState told;
+  told.order = kGoal, told.phase = "asking", told.found = 2, told.in_bin = 1;
+  robot_->publisher(topics::kOfficeState).publish(told);
+  pass(0.1);
+  EXPECT_EQ(desk_.office()->report().phase, "asking");
+  EXPECT_EQ(desk_.office()->report().found, 2);
+}
+
 TEST_F(ARobotDesk, TellsHowTheRobotIs) {
   EXPECT_FALSE(state().pose);
   EXPECT_FALSE(state().battery);

@@ -12,7 +12,7 @@
 namespace docent::vision {
 
 /// Where under a whole ceiling some pictures may have been taken: Markov localization on a grid of places and headings
-/// ([Markov1999] eq. 5), coarse, with every picture's likelihood there kept, so that pictures of one way are judged
+/// ([Markov1998] 2), coarse, with every picture's likelihood there kept, so that pictures of one way are judged
 /// together.
 class CeilingSearch {
  public:
