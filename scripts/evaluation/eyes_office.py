@@ -25,7 +25,7 @@ CELL = 0.1  # [m]
 BODY, ROOM = 0.38, 0.30  # [m] that the robot's centre and a thing keep off what stands there
 NEAR = 0.35  # [m] of a thing from where the robot has it
 IN_ROOM = 1.0  # [m] of the robot from where a room wants it
-ROBOT = ["sight.enabled=true", "things.enabled=true", "mission.goes_home=false", "mission.mingles=false", "office.ask_s=12", "office.hand_over_s=20"]
+ROBOT = ["sight.enabled=true", "office.enabled=true", "things.enabled=true", "mission.goes_home=false", "mission.mingles=false", "office.ask_s=12", "office.hand_over_s=20"]
 # Things that lie about and are no litter: kind, outline, height [m]. The first three are taught as what they are, the others nobody has taught it.
 BOX = ("box", lambda r: {"box": (r.uniform(0.14, 0.28), r.uniform(0.12, 0.24))}, (0.08, 0.26))
 BOTTLE = ("bottle", lambda r: {"circle": r.uniform(0.035, 0.048)}, (0.22, 0.30))

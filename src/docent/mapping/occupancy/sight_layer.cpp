@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace docent::mapping {
@@ -21,6 +22,20 @@ bool is_between(Point2 from, Point2 to, std::span<const Segment> lines) {
     return side(from, to, line.a) * side(from, to, line.b) < 0.0 &&
            side(line.a, line.b, from) * side(line.a, line.b, to) < 0.0;
   });
+}
+
+/// What of a line lies within a circle; nothing where it is none, or goes beyond any number.
+std::optional<Segment> within(const Segment& line, Point2 centre, double radius) {
+  const Point2 along = line.b - line.a, from = line.a - centre;
+  const double a = along.x * along.x + along.y * along.y, b = from.x * along.x + from.y * along.y;
+  const double c = from.x * from.x + from.y * from.y - radius * radius;
+  if (!std::isfinite(a) || !std::isfinite(b * b) || !std::isfinite(c)) return std::nullopt;
+  if (a == 0.0) return c <= 0.0 ? std::optional{line} : std::nullopt;
+  const double root2 = b * b - a * c;
+  if (root2 < 0.0) return std::nullopt;
+  const double first = std::max(0.0, (-b - std::sqrt(root2)) / a), last = std::min(1.0, (-b + std::sqrt(root2)) / a);
+  if (!(first <= last)) return std::nullopt;
+  return Segment{line.a + first * along, line.a + last * along};
 }
 
 }  // namespace
@@ -60,10 +75,11 @@ void SightLayer::see(Point2 robot, std::span<const Segment> lines, std::span<con
 void SightLayer::mark(Point2 robot, std::span<const Segment> lines, std::span<const LaserLook> lasers, Time now) {
   const double step = 0.5 * frame_.resolution;
   for (const Segment& line : lines) {
-    const double length = distance(line.a, line.b);
-    const int steps = 1 + static_cast<int>(length / step);
+    const auto near = within(line, robot, params_.reach);
+    if (!near) continue;
+    const int steps = 1 + static_cast<int>(distance(near->a, near->b) / step);
     for (int i = 0; i <= steps; ++i) {
-      const Point2 at = line.a + (static_cast<double>(i) / steps) * (line.b - line.a);
+      const Point2 at = near->a + (static_cast<double>(i) / steps) * (near->b - near->a);
       const CellIndex cell = frame_.cell_at(at);
       if (!frame_.holds(cell) || distance(at, robot) > params_.reach) continue;
       const std::size_t index = frame_.index(cell);

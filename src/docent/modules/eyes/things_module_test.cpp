@@ -104,7 +104,7 @@ TEST_F(ThingsTest, TellsWhereAThingLiesAndKeepsPicturesToTeachBy) {
 }
 
 TEST_F(ThingsTest, KeepsNothingUnlessItIsAskedTo) {
-  ASSERT_TRUE(config.set("things.keep="));
+  ASSERT_TRUE(config.set("things.keep=''"));
   start();
   look(3);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator{kept}, std::filesystem::directory_iterator{}), 0);

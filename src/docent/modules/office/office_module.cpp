@@ -29,9 +29,11 @@ constexpr Duration kBlind = std::chrono::seconds{60};  // without a picture: the
 
 /// Section `office`: deliveries and tidying up.
 struct OfficeModuleParams : task_control::OfficeParams {
-  int button = 3;  ///< 0..4: the coloured button that says "done"; 0: none does
+  bool enabled = false;  ///< the robot takes orders to deliver and to tidy up
+  int button = 3;        ///< 0..4: the coloured button that says "done"; 0: none does
   template <class V>
   void visit(V& v) {
+    v("enabled", enabled);
     task_control::OfficeParams::visit(v);
     v("button", button);
   }
@@ -203,11 +205,15 @@ class OfficeModule final : public Module {
   int lines_ = 0;
 };
 
+/// A robot that takes no such orders.
+class NoOffice final : public Module {};
+
 }  // namespace
 
 Result<std::unique_ptr<Module>> make_office(const ModuleContext& context) {
   auto params = context.config.section<OfficeModuleParams>("office");
   if (!params) return tl::unexpected<Error>(params.error());
+  if (!params->enabled) return std::make_unique<NoOffice>();
   return std::make_unique<OfficeModule>(context, *params);
 }
 

@@ -20,6 +20,7 @@ class OfficeTest : public ModuleBench {
     museum.area = {{0.2, 0.2}, {5.8, 0.2}, {5.8, 5.8}, {0.2, 5.8}};
     museum.home = {3.0, 3.0, {}};
     museum.rooms = {{"kitchen", {{"en", "Kitchen"}}, {3.0, 3.0}}};
+    EXPECT_TRUE(config.set("office.enabled=true"));
     keep(topics::kRequest, request_, requests_count_);
     keep(topics::kOfficeState, state_, states_);
     keep(topics::kSay, said_, lines_);

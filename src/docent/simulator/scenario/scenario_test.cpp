@@ -124,7 +124,7 @@ constexpr Broken kBroken[] = {
     {"events:\n  - {at: 1, abduct: }",
      "s.yaml:2: unknown kind 'abduct' (known: kidnap, fault, stool, closed, pose_error, "
      "visitors, pushers, runners, escort, steering, lasers, request, answers, battery, kill, second_mode, "
-     "odometry_jump, lie, transport, charger, eye)"},
+     "odometry_jump, lie, transport, charger, eye, office)"},
     {"events:\n  - at: 1\n    kidnap: {to: [1]}", "s.yaml:3: expected a point [x, y]"},
     {"events:\n  - at: 1\n    kidnap: {where: [1, 2]}",
      "s.yaml:3: unknown key 'where' (known: from_hazards, heading, keeps_speed, near_hazards, shift, to, turn)"},

@@ -51,7 +51,7 @@ struct OfficeParams {
   double settle_s = 1.2;                           ///< [s] >= 0 that it stands at each look
   double gone_s = 3.0;                             ///< [s] > 0 without the thing: somebody has taken it, button or not
   double before_thing = 1.15;                      ///< [m] > 0 from the robot's centre to what it points at
-  ViewPlanParams view;
+  ViewPlanParams view;                             ///< where it stands to look for things
   template <class V>
   void visit(V& v) {
     v("objects", objects);
