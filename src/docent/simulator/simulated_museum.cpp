@@ -89,6 +89,11 @@ void SimulatedMuseum::Impl::hear_speech(const docent_msgs::SpeechState& speech) 
   crowd_.hear_speech(to_seconds(end - start_));
 }
 
+void SimulatedMuseum::Impl::start(const std::shared_ptr<Impl>& impl) {
+  impl->start_ = impl->time_ = impl->bus_.now();
+  keep_stepping(impl);
+}
+
 void SimulatedMuseum::Impl::keep_stepping(const std::weak_ptr<Impl>& weak) {
   const auto impl = weak.lock();
   if (!impl) return;
@@ -332,7 +337,7 @@ SimulatedMuseum::SimulatedMuseum(transport::Bus& robot_bus, transport::Bus& trut
   listen(topics::kMissionState,
          [](Impl& impl, const docent_msgs::MissionState& mission) { impl.see_mission(mission); });
   listen(topics::kOfficeState, [](Impl& impl, const docent_msgs::OfficeState& state) { impl.see_office(state); });
-  Impl::keep_stepping(impl_);
+  Impl::start(impl_);
 }
 
 SimulatedMuseum::~SimulatedMuseum() = default;

@@ -41,6 +41,7 @@ class SimulatedMuseum::Impl {
 
   /// Steps when the next step is due, for as long as it lives. A beat of its own would, in wall time, have every sensor
   /// read up to a step late.
+  static void start(const std::shared_ptr<Impl>& impl);  ///< now: to make a world took some time
   static void keep_stepping(const std::weak_ptr<Impl>& weak);
   /// Catches up with the bus's clock.
   void tick();

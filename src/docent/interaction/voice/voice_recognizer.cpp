@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "docent/base/random.h"
 #include "docent/interaction/voice/pronunciation.h"
 
 namespace docent::interaction {
@@ -24,6 +25,8 @@ struct FreeDecoder {
 };
 
 /// The samples at kHeardRate.
+constexpr double kHiss = 2e-4;  // -74 dB of full scale
+
 Result<std::vector<std::int16_t>> heard_samples(const Clip& clip) {
   const double ratio = static_cast<double>(kHeardRate) / kSampleRate;
   Clip resampled(static_cast<std::size_t>(static_cast<double>(clip.size()) * ratio) + 1);
@@ -37,7 +40,10 @@ Result<std::vector<std::int16_t>> heard_samples(const Clip& clip) {
   resampled.resize(static_cast<std::size_t>(data.output_frames_gen));
   std::vector<std::int16_t> samples;
   samples.reserve(resampled.size());
-  for (const float sample : resampled) samples.push_back(to_pcm(static_cast<double>(sample)));
+  // A file's silence may be all zeros, which sound like nothing that the model knows: microphones have a little noise.
+  Rng hiss{1};
+  for (const float sample : resampled)
+    samples.push_back(to_pcm(static_cast<double>(sample) + kHiss * hiss.uniform(-1.0, 1.0)));
   return samples;
 }
 
