@@ -44,7 +44,8 @@ TEST_F(Hostile, RecordingsAreReadAndLocalizedInBoundedTime) {
     const auto log = recording::read_laser_log(path, {.with_sonars = true});
     if (!log) {
       ++refused;
-      EXPECT_EQ(log.error().message.rfind(path.string() + ": holds no laser scan (sensor_msgs/LaserScan) that is fit", 0), 0U)
+      EXPECT_EQ(
+          log.error().message.rfind(path.string() + ": holds no laser scan (sensor_msgs/LaserScan) that is fit", 0), 0U)
           << log.error().message;
       continue;
     }

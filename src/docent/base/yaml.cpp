@@ -31,6 +31,28 @@ std::string on_one_line(std::string text) {
 /// What was parsed from an option of the command line, named after it, has no lines that its reader could look up.
 bool is_option(const std::string& name) { return name.starts_with("--"); }
 
+/// Where a second document has its first line with anything in it; 0: there is none. A line that begins with three
+/// dashes or dots ends a document wherever it stands. The parser's own way to all documents never ends on some inputs.
+int line_of_second_document(std::string_view text) {
+  bool has_content = false, is_second = false;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const bool is_mark = (line.starts_with("---") || line.starts_with("...")) &&
+                         (line.size() == 3 || line[3] == ' ' || line[3] == '\t' || line[3] == '\r');
+    if (is_mark) {
+      is_second = is_second || has_content;
+      line.remove_prefix(3);
+    }
+    const std::size_t at = line.find_first_not_of(" \t\r");
+    if (at == std::string_view::npos || line[at] == '#' || (!has_content && line[0] == '%')) continue;
+    if (is_second) return number;
+    has_content = true;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Result<YamlFile> YamlFile::load(const std::filesystem::path& path) {
@@ -52,12 +74,11 @@ Result<YamlFile> YamlFile::parse(const std::string& text, std::string name) {
     if (depth > 64) return fail(name + ":1: nested more than 64 deep");
   }
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    for (std::size_t i = 1; i < documents.size(); ++i)  // a parser of the first would pass over them without a word
-      if (!documents[i].IsNull())
-        return tl::unexpected<Error>(
-            YamlFile{documents[i], name}.fault(documents[i], "another YAML document begins here: one alone is read"));
-    return YamlFile{documents.empty() ? YAML::Node{} : documents.front(), std::move(name)};
+    const YAML::Node first = YAML::Load(text);
+    if (const int line = line_of_second_document(text); line > 0)  // the parser would pass over it without a word
+      return fail(name + (is_option(name) ? "" : ":" + std::to_string(line)) +
+                  ": another YAML document begins here: one alone is read");
+    return YamlFile{first, std::move(name)};
   } catch (const YAML::Exception& exception) {
     const std::string line = is_option(name) ? "" : ":" + std::to_string(exception.mark.line + 1);
     return fail(name + line + ": not valid YAML: " + on_one_line(exception.msg));

@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLongestSide = 16384;      // [pixels] that an image holds; telephones make 12,000
-constexpr int kLeastSide = 32;           // [pixels] of a picture that shows anything
-constexpr double kPanel = 260.0;         // [points] height of each half of the figure
+constexpr int kLongestSide = 16384;  // [pixels] that an image holds; telephones make 12,000
+constexpr int kLeastSide = 32;       // [pixels] of a picture that shows anything
+constexpr double kPanel = 260.0;     // [points] height of each half of the figure
 
 /// Some systems leave "._NAME.jpg" beside what they copy: no picture.
 bool is_jpeg(const fs::path& path) {

@@ -77,8 +77,7 @@ class OfficeMissionTest : public testing::Test {
     if (actions.withdraws) wished.reset();
     withdrawn += actions.withdraws ? 1 : 0;
     if (actions.wish) wished = actions.wish;
-    for (const auto& [line, about] : actions.lines)
-      said.push_back(std::string{docent::to_text(line)} + " " + about);
+    for (const auto& [line, about] : actions.lines) said.push_back(std::string{docent::to_text(line)} + " " + about);
   }
   void pass(double duration_s) {
     for (const double end = now_s + duration_s; now_s < end;) {
