@@ -70,7 +70,7 @@ void VoiceGrammar::add(const std::vector<std::string>& beginnings, const std::st
   if (!spoken.beginnings.empty()) commands_.push_back(std::move(spoken));
 }
 
-VoiceGrammar::VoiceGrammar(const museum::Museum& museum) {
+VoiceGrammar::VoiceGrammar(const museum::Museum& museum, bool has_orders) {
   using Kind = VoiceCommand::Kind;
   constexpr const char* kLanguage = "en";
   const std::vector<std::string> to{"take me to", "show me", "go to", "drive to", "I would like to see"};
@@ -79,15 +79,17 @@ VoiceGrammar::VoiceGrammar(const museum::Museum& museum) {
   add({"tell me more", "more"}, "", {Kind::more, ""});
   add({"go on", "next"}, "", {Kind::next, ""});
   add({"end the tour", "stop the tour"}, "", {Kind::end_tour, ""});
-  add({"tidy up", "clean up"}, "", {Kind::tidy, ""});
-  add({"it is done", "that is done"}, "", {Kind::confirm, ""});
+  if (has_orders) {
+    add({"tidy up", "clean up"}, "", {Kind::tidy, ""});
+    add({"it is done", "that is done"}, "", {Kind::confirm, ""});
+  }
   for (const museum::Exhibit& exhibit : museum.exhibits)
     if (!exhibit.web_only) add(to, museum::translated(exhibit.title, kLanguage), {Kind::exhibit, exhibit.id});
   for (const museum::Tour& tour : museum.tours)
     add(on_tour, museum::translated(tour.title, kLanguage), {Kind::tour, tour.id});
   for (const museum::Room& room : museum.rooms) {
     add(to, museum::translated(room.name, kLanguage), {Kind::room, room.id});
-    add(bring, museum::translated(room.name, kLanguage), {Kind::deliver, room.id});
+    if (has_orders) add(bring, museum::translated(room.name, kLanguage), {Kind::deliver, room.id});
   }
 }
 

@@ -27,7 +27,8 @@ struct VoiceCommand {
 class VoiceGrammar {
  public:
   /// Exhibits that the robot drives to, tours and rooms by their English names. O(names).
-  explicit VoiceGrammar(const museum::Museum& museum);
+  /// @param has_orders  deliveries and tidying up, too: the more commands, the less well each is understood
+  explicit VoiceGrammar(const museum::Museum& museum, bool has_orders = false);
 
   /// All words of all commands, each once, in alphabetical order.
   [[nodiscard]] std::vector<std::string> words() const;

@@ -37,7 +37,7 @@ TEST(VoiceGrammar, WordsAreWhatPeopleSay) {
 
 TEST(VoiceGrammar, KnowsWhatIsMeant) {
   using Kind = VoiceCommand::Kind;
-  const VoiceGrammar grammar{museum_to_talk_to()};
+  const VoiceGrammar grammar{museum_to_talk_to(), true};
   EXPECT_EQ(meant(grammar, "Please take me to the heart lung machine"), (VoiceCommand{Kind::exhibit, "heart-lung"}));
   EXPECT_EQ(meant(grammar, "show me Zuse's computer Z4"), (VoiceCommand{Kind::exhibit, "zuse"}));
   EXPECT_EQ(meant(grammar, "start the tour the highlights"), (VoiceCommand{Kind::tour, "highlights"}));
@@ -52,13 +52,13 @@ TEST(VoiceGrammar, KnowsWhatIsMeant) {
 TEST(VoiceGrammar, WhatIsCalledAlikeIsMeantOnce) {
   museum::Museum museum = museum_to_talk_to();
   museum.rooms.push_back({"other", {{"en", "Great Hall"}}, {}});
-  const VoiceGrammar grammar{museum};
+  const VoiceGrammar grammar{museum, true};
   EXPECT_EQ(meant(grammar, "go to the great hall")->target, "hall");
-  EXPECT_EQ(grammar.size(), VoiceGrammar{museum_to_talk_to()}.size());
+  EXPECT_EQ(grammar.size(), (VoiceGrammar{museum_to_talk_to(), true}.size()));
 }
 
 TEST(VoiceGrammar, IsWrittenWithTheTokensOfTheDictionary) {
-  const VoiceGrammar grammar{museum_to_talk_to()};
+  const VoiceGrammar grammar{museum_to_talk_to(), true};
   const auto words = grammar.words();
   EXPECT_TRUE(std::is_sorted(words.begin(), words.end()));
   EXPECT_TRUE(std::binary_search(words.begin(), words.end(), "z4"));

@@ -31,7 +31,7 @@ class Voices : public ::testing::Test {
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() / ("docent-voices-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
-    auto made = VoiceRecognizer::create(VoiceGrammar{museum_that_listens()});
+    auto made = VoiceRecognizer::create(VoiceGrammar{museum_that_listens(), true});
     ASSERT_TRUE(made) << made.error().message;
     recognizer_ = std::make_unique<VoiceRecognizer>(std::move(*made));
   }
@@ -88,7 +88,7 @@ TEST_F(Voices, SilenceNoiseAndTooMuchAreNothing) {
 TEST(VoiceRecognizer, SaysWhatIsNotInstalled) {
   VoiceParams params;
   params.model = "/nowhere";
-  const auto made = VoiceRecognizer::create(VoiceGrammar{museum_that_listens()}, params);
+  const auto made = VoiceRecognizer::create(VoiceGrammar{museum_that_listens(), true}, params);
   ASSERT_FALSE(made);
   EXPECT_NE(made.error().message.find("install pocketsphinx-en-us"), std::string::npos);
 }

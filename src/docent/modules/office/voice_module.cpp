@@ -27,6 +27,7 @@ constexpr const char* kSpoken = "en";  // the one language that there is a model
 struct VoiceModuleParams {
   bool enabled = false;                 ///< the robot has a microphone, and listens after a press of the button
   std::string input = "default";        ///< ALSA's name of the microphone, or a sound file that is heard at each press
+  bool orders = false;                  ///< those of `office` may be spoken, too
   int button = 4;                       ///< 1..4: the coloured button to press before one speaks
   ListeningParams listening;            ///< when somebody has said all
   interaction::VoiceParams recognizer;  ///< what counts as understood
@@ -34,6 +35,7 @@ struct VoiceModuleParams {
   void visit(V& v) {
     v("enabled", enabled);
     v("input", input);
+    v("orders", orders);
     v("button", button);
     v("listening", listening);
     v("recognizer", recognizer);
@@ -179,7 +181,8 @@ Result<std::unique_ptr<Module>> make_voice(const ModuleContext& context) {
   auto params = context.config.section<VoiceModuleParams>("voice");
   if (!params) return tl::unexpected<Error>(params.error());
   if (!params->enabled) return std::make_unique<NoVoice>();
-  auto recognizer = interaction::VoiceRecognizer::create(interaction::VoiceGrammar{context.museum}, params->recognizer);
+  auto recognizer = interaction::VoiceRecognizer::create(interaction::VoiceGrammar{context.museum, params->orders},
+                                                         params->recognizer);
   if (!recognizer) return tl::unexpected<Error>(recognizer.error());
   return std::make_unique<VoiceModule>(context, *params, std::move(*recognizer));
 }

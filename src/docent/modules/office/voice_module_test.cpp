@@ -15,6 +15,7 @@ class VoiceTest : public ModuleBench {
     museum.languages = {"en"};
     museum.rooms = {{"kitchen", {{"en", "The kitchen"}}, {3.0, 3.0}}};
     EXPECT_TRUE(config.set("voice.enabled=true"));
+    EXPECT_TRUE(config.set("voice.orders=true"));
     keep(topics::kOfficeOrder, order_, orders_);
     keep(topics::kRequest, request_, requests_);
     keep(topics::kSay, said_, lines_);
