@@ -104,6 +104,7 @@ sed -E 's/"is_trial":(true|false),//; s/"home":\[[0-9.]+,/"home":[9.1,/' /tmp/mu
 page https://museum.example/api/v1/museum -X PUT -H "Docent-Csrf: $token" -H 'Content-Type: application/json' -d @/tmp/changed.json -o /tmp/put.json
 grep -q '^home: .*9\.1' /var/lib/docent/museums/mine/museum.yaml || { echo "not published: $(head -c 300 /tmp/put.json)"; exit 1; }
 [ -f /var/lib/docent/museums/mine/museum.yaml.before ] || { echo "what it said before is not kept"; exit 1; }
+sleep 10  # all modules read the changed museum, beside a simulated base that shares their two cores
 docent doctor --museum /var/lib/docent/museums/mine --robot /etc/docent/robot.yaml --state /var/lib/docent --json >/tmp/doctor.json || { cat /tmp/doctor.json; exit 1; }
 systemctl stop docent
 nginx -s stop
