@@ -34,6 +34,8 @@ bool is_option(const std::string& name) { return name.starts_with("--"); }
 /// Where a second document has its first line with anything in it; 0: there is none. A line that begins with three
 /// dashes or dots ends a document wherever it stands. The parser's own way to all documents never ends on some inputs.
 int line_of_second_document(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   bool has_content = false, is_second = false;
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -58,6 +58,7 @@ TEST(Yaml, FaultsNameFileAndLine) {
   EXPECT_TRUE(fault_of("name: [\n").starts_with("f.yaml:2: not valid YAML"));
   EXPECT_EQ(fault_of("- 1\n"), "f.yaml:1: expected a mapping (key: value)");
   EXPECT_EQ(fault_of("name: a\n---\ncount: 3\n"), "f.yaml:3: another YAML document begins here: one alone is read");
+  EXPECT_EQ(fault_of("\xEF\xBB\xBF# of Windows\n---\nname: a\n"), fault_of("name: a\n"));
   EXPECT_EQ(fault_of("---\nname: a\n...\n---\n"), "") << "an empty one says nothing";
 }
 
